@@ -1,0 +1,88 @@
+// The surface as flat arrays, as the device reads it. A face here is OpenSubdiv's ptex face: a quad of the cage, one corner
+// quad of an n-gon, or a triangle of a Loop cage.
+//
+//   quads (Catmull-Clark, bilinear)        triangles (Loop)
+//   corner 3 --- side 2 --- corner 2       corner 2
+//      |                       |              |    \ side 1      side s runs from corner s to corner s+1;
+//    side 3                  side 1         side 2   \           x along a side goes from 0 to 1
+//      |                       |              |        \
+//   corner 0 --- side 0 --- corner 1       corner 0 -- side 0 -- corner 1
+//   (0,0)                   (1,0)          (0,0)                 (1,0)
+#ifndef RELIEF_SHARED_SURFACE_H
+#define RELIEF_SHARED_SURFACE_H
+
+#include "shared/types.h"
+
+#ifdef __cplusplus
+namespace relief {
+#define RELIEF_CONSTANT inline constexpr
+#else
+#define RELIEF_CONSTANT const
+#endif
+
+// Tree entries: a leaf names a patch, an inner entry names the first of four child entries, kNoPatch is a hole.
+// Quad children: 0 (u<½,v<½), 1 (u>=½,v<½), 2 (u<½,v>=½), 3 (both >=½).
+// Triangle children: 0 at corner 0, 1 at corner 1 (u>=½), 2 at corner 2 (v>=½), 3 the middle, turned: (½-u, ½-v).
+RELIEF_CONSTANT uint kLeafBit = 0x80000000u;
+RELIEF_CONSTANT uint kNoPatch = 0xffffffffu;
+
+// Face::sides entries: edge index, how the side runs along it, and whether the side is two edges (beside an n-gon).
+// A split side names the first edge of a pair (2 consecutive edges e, e+1 in the edges' direction). Run forwards the side
+// is e then e+1; run backwards it is e+1 reversed, then e reversed.
+RELIEF_CONSTANT uint kSideReversed = 0x80000000u;
+RELIEF_CONSTANT uint kSideSplit = 0x40000000u;
+RELIEF_CONSTANT uint kSideEdgeMask = 0x3fffffffu;
+
+// Patch types as OpenSubdiv numbers them (Far::PatchDescriptor).
+RELIEF_CONSTANT uint kPatchQuads = 3u;
+RELIEF_CONSTANT uint kPatchTriangles = 4u;
+RELIEF_CONSTANT uint kPatchLoop = 5u;
+RELIEF_CONSTANT uint kPatchRegular = 6u;
+RELIEF_CONSTANT uint kPatchGregory = 9u;
+RELIEF_CONSTANT uint kPatchGregoryTriangle = 10u;
+
+struct Patch {
+    uint firstPoint;     // into Surface::patchPoints
+    uint param0;         // Far::PatchParam::field0
+    uint param1;         // Far::PatchParam::field1
+    uint type;           // kPatch...
+    uint texFirstPoint;  // into Surface::texPatchPoints
+    uint texParam1;      // the face-varying patch's field1 (its boundary mask differs)
+    uint texType;        // kPatch...
+};
+
+struct Face {
+    uint root;           // tree entry
+    uint sides[4];       // 3 used by triangles
+    uint cageFace;       // the face of the cage that this one belongs to
+};
+
+// A stretch of one side of one face: an edge's parameter t in [0,1] is at x = start + t (end - start) along the side.
+struct Touch {
+    uint face;
+    uint side;           // for corners: the corner, and start = end = 0
+    float start;
+    float end;
+};
+
+// Every edge has one owner, the incident face with the lowest index; its direction is the owner's (start < end).
+struct Edge {
+    Touch owner;
+    uint corners[2];     // at t = 0 and t = 1
+    uint firstTouch;     // into Surface::touches: all incident faces in index order,
+    uint touchCount;     // or 0 where the owner's normal is the surface's (smooth edges)
+    uint partner;        // the other half of a split cage edge, or the edge itself
+};
+
+struct Corner {
+    Touch owner;
+    uint firstTouch;     // as for edges
+    uint touchCount;
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(Patch) == 28 && sizeof(Face) == 24 && sizeof(Touch) == 16);
+static_assert(sizeof(Edge) == 36 && sizeof(Corner) == 24);
+} // namespace relief
+#endif
+#endif

@@ -1,0 +1,139 @@
+// Vectors, errors, progress, images on disk, files that appear whole or not at all.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#define GLM_FORCE_DEPTH_ZERO_TO_ONE
+#include <glm/glm.hpp>
+
+namespace relief {
+
+using glm::dmat2;
+using glm::dvec2;
+using glm::dvec3;
+using glm::ivec2;
+using glm::mat3;
+using glm::mat4;
+using glm::uvec2;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+/// Why something failed; the value is the exit code of the command line.
+enum class Failure { internal = 1, usage = 2, input = 3, file = 4, device = 5, check = 6 };
+
+/// One line a person can act on: what, file and line or index, the valid range, what to do.
+class Error : public std::runtime_error {
+public:
+    Error(Failure failure, const std::string& line) : std::runtime_error(line), failure(failure) {}
+    Failure failure;
+};
+
+template <typename... Args>
+[[noreturn]] void fail(Failure failure, fmt::format_string<Args...> format, Args&&... args) {
+    throw Error(failure, fmt::format(format, std::forward<Args>(args)...));
+}
+
+/// Called with one line for each thing that is odd but not wrong (an 8-bit height map, a cage without UVs).
+using Warn = std::function<void(const std::string&)>;
+
+/// Prints "warning: LINE" to stderr.
+void warnOnStderr(const std::string& line);
+
+/// An axis-aligned box; empty (lower > upper) until something is added.
+struct Bounds {
+    dvec3 lower{1e300};
+    dvec3 upper{-1e300};
+
+    void add(const dvec3& p) { lower = glm::min(lower, p), upper = glm::max(upper, p); }
+    [[nodiscard]] bool isEmpty() const { return lower.x > upper.x; }
+    [[nodiscard]] dvec3 center() const { return 0.5 * (lower + upper); }
+    [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : glm::length(upper - lower); }
+    [[nodiscard]] double longestSide() const;
+};
+
+// --- images on disk ---------------------------------------------------------------------------------------------
+
+/// What a picture file may hold before it is refused (checked on its header, before memory is taken).
+struct ImageLimits {
+    int side = 32768;                          ///< largest width and height, pixels
+    std::uint64_t decodedBytes = 1ull << 30;   ///< largest width * height * channels * bytes a sample
+};
+
+struct ImageInfo {
+    int width = 0, height = 0, channels = 0;
+    std::string format;                        ///< reader's name: "png", "openexr", "tiff", "hdr", "jpeg"
+    std::string sample;                        ///< sample type: "uint8", "uint16", "half", "float", ...
+    int sampleBytes = 0;
+    bool isFloat = false;                      ///< half or float samples: heights in units, not 0..1
+    std::vector<std::string> channelNames;
+};
+
+/// Floats, row-major from the top row, channels interleaved; integer files are mapped to 0..1, no colour transform.
+struct Image {
+    int width = 0, height = 0, channels = 0;
+    std::vector<float> texels;                 ///< width * height * channels
+
+    [[nodiscard]] const float* at(int x, int y) const { return &texels[(std::size_t(y) * width + x) * channels]; }
+    float* at(int x, int y) { return &texels[(std::size_t(y) * width + x) * channels]; }
+};
+
+/// Reads a header. The reader is chosen by the file's first bytes (EXR, TIFF, PNG, HDR, JPEG), never by its name.
+/// Throws Failure::file when it cannot be opened, Failure::input when it is no such picture or passes a limit.
+ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits = {});
+
+/// Reads all channels, or only `channel` (0-based) when it is not negative, as raw data.
+Image readImage(const std::string& path, int channel = -1, const ImageLimits& limits = {});
+
+enum class SampleType { uint8, uint16, half, real };
+
+/// Writes PNG, TIFF or EXR by the extension of `path`, whole or not at all. Values are written as they are (0..1 for
+/// integer samples, clamped). Throws Failure::usage for an unknown extension, Failure::file when writing fails.
+void writeImage(const std::string& path, const Image& image, SampleType sample);
+
+// --- files ------------------------------------------------------------------------------------------------------
+
+/// Calls `write` with a temporary name beside `path` (same extension), then renames it; on any exception the temporary
+/// file is removed and `path` is as it was. Throws Failure::file when the folder cannot be written.
+void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write);
+
+/// The whole file as bytes. Throws Failure::file, or Failure::input when it is longer than `limit` bytes.
+std::string readFile(const std::string& path, std::uint64_t limit = 1ull << 32);
+
+// --- words ------------------------------------------------------------------------------------------------------
+
+/// The candidate nearest to `word` by edit distance, or "" when none is near: for "did you mean".
+std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "4.2 MB": decimal units as file managers print them.
+std::string humanBytes(std::uint64_t bytes);
+
+enum class ShowProgress { automatic, always, never };
+
+/// One line on stderr, redrawn in place: `rendering  42 % ████░░░░`. Silent unless stderr is a terminal (automatic).
+class Progress {
+public:
+    Progress(std::string title, std::uint64_t total, ShowProgress show);
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    void advance(std::uint64_t steps = 1);
+
+private:
+    void draw();
+    std::string title_;
+    std::uint64_t total_, done_ = 0;
+    int shownPercent_ = -1;
+    bool isShown_;
+    double startSeconds_;
+};
+
+} // namespace relief

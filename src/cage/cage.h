@@ -1,0 +1,82 @@
+// Control cages: polygons with subdivision tags, in files and in memory.
+#pragma once
+
+#include "base/base.h"
+
+namespace relief {
+
+/// How OpenSubdiv treats a boundary of the cage (t interpolateboundary).
+enum class BoundaryRule { none = 0, edgeAndCorner = 1, edgeOnly = 2 };
+
+/// How texture coordinates are smoothed (t facevaryinginterpolateboundary): which parts stay linear.
+enum class TexBoundaryRule { none = 0, cornersOnly = 1, cornersPlus1 = 2, cornersPlus2 = 3, boundaries = 4, all = 5 };
+
+enum class CreaseMethod { uniform, chaikin };
+
+/// A named run of faces (OBJ `o`/`g`, with its `usemtl`).
+struct CagePart {
+    std::string name;
+    std::string material;
+    std::uint32_t firstFace = 0, faceCount = 0;
+};
+
+/// Plain arrays; all indices count from 0 and are valid once a loader returns it.
+struct Cage {
+    std::vector<vec3> positions;
+    std::vector<std::uint32_t> faceSizes;     ///< corners a face, each >= 3
+    std::vector<std::uint32_t> corners;       ///< position index, all faces in a row: sum(faceSizes) entries
+
+    std::vector<vec2> texCoords;              ///< face-varying values (s,t), t up; empty when the cage has none
+    std::vector<std::uint32_t> texCorners;    ///< texCoords index for each corner, or empty
+    std::vector<vec3> normals;                ///< only for dense meshes; subdivision ignores them
+    std::vector<std::uint32_t> normalCorners; ///< normals index for each corner, or empty
+
+    std::vector<std::uint32_t> creaseEdges;   ///< pairs of position indices; every pair is an edge of some face
+    std::vector<float> creaseSharpness;       ///< one an edge; >= 10 is infinitely sharp
+    std::vector<std::uint32_t> sharpVertices; ///< position indices
+    std::vector<float> vertexSharpness;       ///< one a sharp vertex
+    std::vector<std::uint32_t> holes;         ///< face indices that are not drawn
+
+    BoundaryRule boundaryRule = BoundaryRule::edgeOnly;
+    TexBoundaryRule texBoundaryRule = TexBoundaryRule::cornersPlus1;
+    CreaseMethod creaseMethod = CreaseMethod::uniform;
+
+    std::vector<CagePart> parts;
+
+    [[nodiscard]] std::size_t faceCount() const { return faceSizes.size(); }
+    [[nodiscard]] bool hasTexCoords() const { return !texCorners.empty(); }
+    [[nodiscard]] bool isAllTriangles() const;
+
+    /// Bytes that the cage takes as flat arrays: positions, face sizes, corners, texture coordinates, tags.
+    [[nodiscard]] std::uint64_t byteCount() const;
+};
+
+/// Reads a cage by the extension of `path` (today: .obj). Throws Failure::file when it cannot be read and
+/// Failure::input, naming file and line, for anything that is not a valid cage. Oddities that have one sensible
+/// reading (hierarchical edits, unknown tags) go to `warn`.
+Cage readCage(const std::string& path, const Warn& warn = warnOnStderr);
+
+/// The same from text in memory; `name` stands for the file in messages.
+Cage parseObj(const std::string& text, const std::string& name, const Warn& warn = warnOnStderr);
+
+/// Writes positions, texture coordinates, faces, tags and parts as OBJ, whole or not at all.
+void writeObj(const std::string& path, const Cage& cage);
+
+/// Throws Failure::input when an index is out of range, a face has fewer than 3 corners, a number is not finite, a crease
+/// names no edge, a sharpness is negative or array sizes disagree. Every loader calls it; code that builds cages may.
+void validateCage(const Cage& cage, const std::string& name);
+
+/// What `relief info` prints of a cage.
+struct CageSummary {
+    std::uint64_t vertexCount = 0, faceCount = 0, edgeCount = 0, cornerCount = 0;
+    std::uint64_t triangleCount = 0, quadCount = 0, otherFaceCount = 0;
+    std::uint64_t boundaryEdgeCount = 0, nonManifoldEdgeCount = 0;
+    std::uint64_t irregularVertexCount = 0;   ///< interior vertices of valence != 4 (quads) or != 6 (all triangles)
+    std::uint64_t maxValence = 0, unusedVertexCount = 0;
+    std::uint64_t creasedEdgeCount = 0, sharpVertexCount = 0, holeCount = 0;
+    std::uint64_t texCoordCount = 0, seamEdgeCount = 0; ///< edges whose two faces disagree about texture coordinates
+    Bounds bounds;
+};
+CageSummary summarize(const Cage& cage);
+
+} // namespace relief

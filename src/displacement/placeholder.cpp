@@ -1,0 +1,1 @@
+#include "displacement/displacement.h"
