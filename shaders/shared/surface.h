@@ -5,7 +5,7 @@
 //   corner 3 --- side 2 --- corner 2       corner 2
 //      |                       |              |    \ side 1      side s runs from corner s to corner s+1;
 //    side 3                  side 1         side 2   \           x along a side goes from 0 to 1
-//      |                       |              |        \
+//      |                       |              |       .  .
 //   corner 0 --- side 0 --- corner 1       corner 0 -- side 0 -- corner 1
 //   (0,0)                   (1,0)          (0,0)                 (1,0)
 #ifndef RELIEF_SHARED_SURFACE_H
