@@ -1,0 +1,44 @@
+// The mathematics of a displaced surface, once for both sides of the bus. n is the unit normal of the limit surface,
+// h the height in cage units; subscripts are derivatives. Everything is written in face coordinates (u,v): m only needs
+// its direction, and q_u x q_v = det(J) q_s x q_t with J = d(s,t)/d(u,v), so no inverse of J is taken, mirrored islands
+// keep their side and singular texture coordinates do no harm.
+#ifndef RELIEF_SHARED_DISPLACEMENT_H
+#define RELIEF_SHARED_DISPLACEMENT_H
+
+#include "shared/types.h"
+
+#ifdef __cplusplus
+namespace relief::formulas {
+using glm::cross;
+using glm::dot;
+#endif
+
+// (h_u, h_v) = (h_s, h_t) J by the chain rule; J has columns d(s,t)/du and d(s,t)/dv.
+RELIEF_SHARED_FUNCTION real2 heightGradient(real2 gradientST, real2x2 J) {
+    return real2(dot(gradientST, J[0]), dot(gradientST, J[1]));
+}
+
+// q = p + h n  (Lee, Moreton, Hoppe 2000, section 3).
+RELIEF_SHARED_FUNCTION real3 displacedPoint(real3 p, real3 n, real h) { return p + h * n; }
+
+// n_u = (I - n n^T)(p_uu x p_v + p_u x p_uv) / |p_u x p_v|: the derivative of (p_u x p_v)/|p_u x p_v|.
+// The same with (p_uv, p_vv) in place of (p_uu, p_uv) gives n_v.
+RELIEF_SHARED_FUNCTION real3 normalDerivative(real3 n, real area, real3 pu, real3 pv, real3 dpu, real3 dpv) {
+    real3 c = cross(dpu, pv) + cross(pu, dpv);
+    return (c - n * dot(n, c)) / area;
+}
+
+// m = p_u x p_v + h_u (n x p_v) - h_v (n x p_u): Blinn (1978); Hart, "Perturbation of normals", eq. 16.3.
+RELIEF_SHARED_FUNCTION real3 firstOrderNormal(real3 n, real3 pu, real3 pv, real2 dh) {
+    return cross(pu, pv) + dh.x * cross(n, pv) - dh.y * cross(n, pu);
+}
+
+// q_u = p_u + h_u n + h n_u  (Lee, Moreton, Hoppe 2000, section 3); m = q_u x q_v.
+RELIEF_SHARED_FUNCTION real3 displacedTangent(real3 pu, real3 n, real3 nu, real h, real hu) {
+    return pu + hu * n + h * nu;
+}
+
+#ifdef __cplusplus
+} // namespace relief::formulas
+#endif
+#endif

@@ -1,1 +1,0 @@
-#include "gpu/gpu.h"
