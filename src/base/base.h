@@ -64,23 +64,23 @@ struct Bounds {
 
 /// What a picture file may hold before it is refused (checked on its header, before memory is taken).
 struct ImageLimits {
-    int side = 32768;                          ///< largest width and height, pixels
-    std::uint64_t decodedBytes = 1ull << 30;   ///< largest width * height * channels * bytes a sample
+    int side = 32768;                        ///< largest width and height, pixels
+    std::uint64_t decodedBytes = 1ull << 30; ///< largest width * height * channels * bytes a sample
 };
 
 struct ImageInfo {
     int width = 0, height = 0, channels = 0;
-    std::string format;                        ///< reader's name: "png", "openexr", "tiff", "hdr", "jpeg"
-    std::string sample;                        ///< sample type: "uint8", "uint16", "half", "float", ...
+    std::string format; ///< reader's name: "png", "openexr", "tiff", "hdr", "jpeg"
+    std::string sample; ///< sample type: "uint8", "uint16", "half", "float", ...
     int sampleBytes = 0;
-    bool isFloat = false;                      ///< half or float samples: heights in units, not 0..1
+    bool isFloat = false; ///< half or float samples: heights in units, not 0..1
     std::vector<std::string> channelNames;
 };
 
 /// Floats, row-major from the top row, channels interleaved; integer files are mapped to 0..1, no colour transform.
 struct Image {
     int width = 0, height = 0, channels = 0;
-    std::vector<float> texels;                 ///< width * height * channels
+    std::vector<float> texels; ///< width * height * channels
 
     [[nodiscard]] const float* at(int x, int y) const { return &texels[(std::size_t(y) * width + x) * channels]; }
     float* at(int x, int y) { return &texels[(std::size_t(y) * width + x) * channels]; }
@@ -96,13 +96,15 @@ Image readImage(const std::string& path, int channel = -1, const ImageLimits& li
 enum class SampleType { uint8, uint16, half, real };
 
 /// Writes PNG, TIFF or EXR by the extension of `path`, whole or not at all. Values are written as they are (0..1 for
-/// integer samples, clamped). Throws Failure::usage for an unknown extension, Failure::file when writing fails.
+/// integer samples, clamped). Throws Failure::usage for an unknown extension or a sample that the format has not (PNG
+/// holds integers, EXR half and real, TIFF all), Failure::file when writing fails.
 void writeImage(const std::string& path, const Image& image, SampleType sample);
 
 // --- files ------------------------------------------------------------------------------------------------------
 
-/// Calls `write` with a temporary name beside `path` (same extension), then renames it; on any exception the temporary
-/// file is removed and `path` is as it was. Throws Failure::file when the folder cannot be written.
+/// Calls `write` with the name of an empty temporary file beside `path` (same extension), then renames it; on any
+/// exception the temporary file is removed and `path` is as it was. Throws Failure::file when the folder cannot be
+/// written or `path` is something else than a file (a folder, a device).
 void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
 /// The whole file as bytes. Throws Failure::file, or Failure::input when it is longer than `limit` bytes.
@@ -118,7 +120,8 @@ std::string humanBytes(std::uint64_t bytes);
 
 enum class ShowProgress { automatic, always, never };
 
-/// One line on stderr, redrawn in place: `rendering  42 % ████░░░░`. Silent unless stderr is a terminal (automatic).
+/// One line on stderr, redrawn in place: `rendering  42 % ████░░░░`. Automatic: silent unless stderr is a terminal and
+/// the work takes over a second. One thread advances it.
 class Progress {
 public:
     Progress(std::string title, std::uint64_t total, ShowProgress show);

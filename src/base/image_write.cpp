@@ -1,0 +1,73 @@
+// Pictures out, whole or not at all.
+#include "base/base.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+
+#include <OpenImageIO/imageio.h>
+
+namespace relief {
+
+namespace {
+
+OIIO::TypeDesc sampleDesc(SampleType sample) {
+    switch (sample) {
+    case SampleType::uint8: return OIIO::TypeDesc::UINT8;
+    case SampleType::uint16: return OIIO::TypeDesc::UINT16;
+    case SampleType::half: return OIIO::TypeDesc::HALF;
+    case SampleType::real: return OIIO::TypeDesc::FLOAT;
+    }
+    fail(Failure::internal, "sample type {} does not exist", int(sample));
+}
+
+bool isInteger(SampleType sample) { return sample == SampleType::uint8 || sample == SampleType::uint16; }
+
+/// The writer's name for the extension; throws when the format cannot hold such samples.
+std::string chooseFormat(const std::string& path, SampleType sample) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    for (char& letter : extension) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+    if (extension == ".tif" || extension == ".tiff") return "tiff";
+    if (extension == ".png") {
+        if (isInteger(sample)) return "png";
+        fail(Failure::usage, "{}: PNG holds 8 or 16-bit integers only; write .exr or .tif", path);
+    }
+    if (extension == ".exr") {
+        if (!isInteger(sample)) return "openexr";
+        fail(Failure::usage, "{}: EXR holds half and float samples only; write .png or .tif", path);
+    }
+    fail(Failure::usage, "{}: unknown kind of picture '{}'; use .png, .exr, .tif or .tiff", path, extension);
+}
+
+void checkShape(const std::string& path, const Image& image) {
+    const std::size_t expected = std::size_t(image.width) * image.height * image.channels;
+    if (image.width < 1 || image.height < 1 || image.channels < 1 || image.texels.size() != expected)
+        fail(Failure::internal, "{}: a picture of {} x {} x {} cannot hold {} values", path, image.width, image.height,
+             image.channels, image.texels.size());
+}
+
+/// Integers hold 0..1; NaN becomes 0.
+std::vector<float> clamped(std::vector<float> texels) {
+    for (float& texel : texels) texel = texel > 0 ? std::min(texel, 1.0f) : 0.0f;
+    return texels;
+}
+
+} // namespace
+
+void writeImage(const std::string& path, const Image& image, SampleType sample) {
+    const std::string format = chooseFormat(path, sample);
+    checkShape(path, image);
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, sampleDesc(sample));
+    spec.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours are divided by alpha on the way out
+    const std::vector<float> texels = isInteger(sample) ? clamped(image.texels) : image.texels;
+
+    writeWhole(path, [&](const std::string& temporary) {
+        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+        if (!output) fail(Failure::internal, "OpenImageIO has no {} writer: {}", format, OIIO::geterror());
+        const bool isWritten =
+            output->open(temporary, spec) && output->write_image(OIIO::TypeFloat, texels.data()) && output->close();
+        if (!isWritten) fail(Failure::file, "{}: cannot be written: {}", path, output->geterror());
+    });
+}
+
+} // namespace relief

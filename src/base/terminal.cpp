@@ -1,0 +1,57 @@
+#include "base/base.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include <unistd.h>
+
+namespace relief {
+
+namespace {
+
+constexpr int kBarCells = 20;
+constexpr double kQuietSeconds = 1; // work that ends sooner needs no bar
+
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+bool isWanted(ShowProgress show) {
+    return show == ShowProgress::always || (show == ShowProgress::automatic && isatty(STDERR_FILENO) == 1);
+}
+
+} // namespace
+
+void warnOnStderr(const std::string& line) { fmt::print(stderr, "warning: {}\n", line); }
+
+Progress::Progress(std::string title, std::uint64_t total, ShowProgress show)
+    : title_(std::move(title)), total_(std::max<std::uint64_t>(total, 1)), isShown_(isWanted(show)),
+      startSeconds_(secondsNow()) {
+    if (show != ShowProgress::always) return;
+    startSeconds_ -= kQuietSeconds;
+    draw();
+}
+
+Progress::~Progress() {
+    if (shownPercent_ >= 0) std::fputc('\n', stderr);
+}
+
+void Progress::advance(std::uint64_t steps) {
+    done_ = std::min(done_ + steps, total_);
+    if (isShown_ && secondsNow() - startSeconds_ >= kQuietSeconds) draw();
+}
+
+void Progress::draw() {
+    const double share = double(done_) / double(total_);
+    const int percent = int(100 * share);
+    if (percent == shownPercent_) return;
+    shownPercent_ = percent;
+    const int full = int(kBarCells * share);
+    std::string bar;
+    for (int cell = 0; cell < kBarCells; ++cell) bar += cell < full ? "█" : "░";
+    fmt::print(stderr, "\r{}  {:3} % {}", title_, percent, bar);
+    std::fflush(stderr);
+}
+
+} // namespace relief
