@@ -1,0 +1,58 @@
+// Internal: OpenSubdiv's objects as this module builds them, and the numbers that its refinement primitives need.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <opensubdiv/far/patchTableFactory.h>
+#include <opensubdiv/far/primvarRefiner.h>
+#include <opensubdiv/far/ptexIndices.h>
+#include <opensubdiv/far/topologyDescriptor.h>
+
+#include "surface/surface.h"
+
+namespace relief {
+
+namespace Far = OpenSubdiv::Far;
+
+/// A value that OpenSubdiv can blend: what its templates call a primvar.
+template <typename V>
+struct Blend {
+    V value{0};
+
+    void Clear() { value = V(0); }                                                        // NOLINT(*-identifier-naming)
+    void AddWithWeight(const Blend& other, double w) { value = value + w * other.value; } // NOLINT(*-identifier-naming)
+};
+using Point = Blend<dvec3>;
+using TexPoint = Blend<dvec2>;
+
+/// The refined topology of a cage and the patches on it.
+struct FarTables {
+    std::unique_ptr<Far::TopologyRefiner> refiner;
+    std::unique_ptr<const Far::PatchTable> patches;
+    bool hasTexCoords = false;
+    int isolation = 0; ///< levels used: at least 1 where there are n-gons
+};
+
+/// The cage's topology, not refined. Throws Failure::input when the scheme or OpenSubdiv cannot take it.
+std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme scheme);
+
+/// Refines adaptively and builds patches with double-precision local points. Throws as buildSurface does.
+FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options);
+
+/// Cage, refined and local points of a pose, as the patch table indexes them.
+std::vector<Point> refineAll(const FarTables& tables, std::span<const vec3> cagePositions);
+
+/// Face-varying values, refined and local, as the patch table indexes them; empty without texture coordinates.
+std::vector<TexPoint> refineAllTex(const FarTables& tables, const std::vector<vec2>& texCoords);
+
+/// Levels below its ptex face: a corner quad of an n-gon starts at depth 1.
+inline int depthInFace(const Far::PatchParam& param) { return param.GetDepth() - (param.NonQuadRoot() ? 1 : 0); }
+
+// The steps of buildSurface, each fills its own part of the surface.
+void fillPatches(Surface& surface, const FarTables& tables);
+void fillStencils(Surface& surface, const FarTables& tables);
+void fillTexPoints(Surface& surface, const FarTables& tables, const std::vector<vec2>& texCoords);
+void fillOwners(Surface& surface, const FarTables& tables, const Cage& cage);
+
+} // namespace relief

@@ -1,0 +1,252 @@
+// Edges and corners, who owns them, and which faces must agree on a normal there (DESIGN: watertight by construction).
+//
+//   corner quads of an n-gon (n = 3)       side i of an n-gon runs from its corner i to corner i+1; quad i of its n
+//   quads
+//              2                           sits at corner i:
+//             / \                              corner 0  n-gon's corner i      side 0  along side i to its middle
+//            / 2 \                             corner 1  middle of side i      side 1  middle to centre: edge shared
+//           +-. .-+                            corner 2  centre of the n-gon   side 2  centre to middle: edge shared
+//          / 0 + 1 \                           corner 3  middle of side i-1    side 3  along side i-1 from its middle
+//         /    |    \                      .
+//        0 --- + --- 1                     An edge of the cage with an n-gon on any side is two edges here.
+#include <algorithm>
+
+#include "surface/far.h"
+
+namespace relief {
+namespace {
+
+/// Side `side` of the cage's face `face`.
+struct SideUse {
+    int face;
+    int side;
+};
+
+class OwnerBuilder {
+public:
+    OwnerBuilder(Surface& surface, const FarTables& tables, const Cage& cage)
+        : surface_(surface), level_(tables.refiner->GetLevel(0)), ptex_(*tables.refiner),
+          isBilinear_(surface.scheme == Scheme::bilinear), sharpLimit_(sharpLimit(cage, tables.isolation)) {}
+
+    void build() {
+        gatherUses();
+        addVertexCorners();
+        for (int edge = 0; edge < level_.GetNumEdges(); ++edge) {
+            if (uses_[edge].empty()) continue;
+            if (isSplit(uses_[edge]))
+                addSplitEdge(edge);
+            else
+                addWholeEdge(edge);
+        }
+        for (int face = 0; face < level_.GetNumFaces(); ++face)
+            if (!level_.IsFaceHole(face) && isNgon(face)) addInside(face);
+    }
+
+private:
+    static float sharpLimit(const Cage& cage, int isolation) {
+        // Chaikin's rule hands sharpness on to neighbours, so one edge past the limit can hold all the others sharp.
+        const auto isPast = [&](float sharpness) { return sharpness > float(isolation); };
+        const bool isAnyPast = std::any_of(cage.creaseSharpness.begin(), cage.creaseSharpness.end(), isPast);
+        return cage.creaseMethod == CreaseMethod::chaikin && isAnyPast ? 0 : float(isolation);
+    }
+
+    [[nodiscard]] int sizeOf(int face) const { return level_.GetFaceVertices(face).size(); }
+    [[nodiscard]] bool isNgon(int face) const { return sizeOf(face) != surface_.sideCount; }
+    [[nodiscard]] bool isSplit(const std::vector<SideUse>& uses) const {
+        return std::any_of(uses.begin(), uses.end(), [&](const SideUse& use) { return isNgon(use.face); });
+    }
+    [[nodiscard]] int startVertex(const SideUse& use) const { return level_.GetFaceVertices(use.face)[use.side]; }
+    [[nodiscard]] int endVertex(const SideUse& use) const {
+        return level_.GetFaceVertices(use.face)[(use.side + 1) % sizeOf(use.face)];
+    }
+    [[nodiscard]] std::uint32_t quadOf(int face, int corner) const {
+        return std::uint32_t(ptex_.GetFaceId(face) + (isNgon(face) ? corner % sizeOf(face) : 0));
+    }
+
+    [[nodiscard]] bool isAgreedEdge(int edge) const {
+        return isBilinear_ || level_.IsEdgeBoundary(edge) || level_.IsEdgeNonManifold(edge) ||
+               level_.IsEdgeInfSharp(edge) || level_.GetEdgeSharpness(edge) > sharpLimit_;
+    }
+
+    [[nodiscard]] bool isAgreedVertex(int vertex) const {
+        const auto edges = level_.GetVertexEdges(vertex);
+        return isBilinear_ || level_.IsVertexBoundary(vertex) || level_.IsVertexNonManifold(vertex) ||
+               level_.IsVertexInfSharp(vertex) || level_.GetVertexSharpness(vertex) > sharpLimit_ ||
+               std::any_of(edges.begin(), edges.end(), [&](int edge) { return isAgreedEdge(edge); });
+    }
+
+    // A face that runs along two vertices twice has two edges there: the first stands for both.
+    void gatherUses() {
+        uses_.resize(level_.GetNumEdges());
+        surface_.isClosed = true;
+        for (int face = 0; face < level_.GetNumFaces(); ++face) {
+            const bool isHole = level_.IsFaceHole(face);
+            surface_.isClosed = surface_.isClosed && !isHole;
+            for (int side = 0; side < sizeOf(face); ++side) {
+                const SideUse use{face, side};
+                const int edge = level_.FindEdge(startVertex(use), endVertex(use));
+                surface_.isClosed = surface_.isClosed && !level_.IsEdgeBoundary(edge);
+                if (!isHole) uses_[edge].push_back(use);
+            }
+        }
+    }
+
+    // --- corners
+
+    std::uint32_t addCorner(const Touch& owner, std::vector<Touch>& touches, bool isAgreed) {
+        Corner corner{owner, std::uint32_t(surface_.touches.size()), 0};
+        if (isAgreed) corner.touchCount = addTouches(touches);
+        surface_.corners.push_back(corner);
+        return std::uint32_t(surface_.corners.size() - 1);
+    }
+
+    std::uint32_t addTouches(std::vector<Touch>& touches) {
+        std::stable_sort(touches.begin(), touches.end(),
+                         [](const Touch& a, const Touch& b) { return a.face < b.face; });
+        surface_.touches.insert(surface_.touches.end(), touches.begin(), touches.end());
+        return std::uint32_t(touches.size());
+    }
+
+    static Touch lowest(const std::vector<Touch>& touches) {
+        return *std::min_element(touches.begin(), touches.end(),
+                                 [](const Touch& a, const Touch& b) { return a.face < b.face; });
+    }
+
+    void addVertexCorners() {
+        cornerOfVertex_.assign(level_.GetNumVertices(), kNoPatch);
+        for (int vertex = 0; vertex < level_.GetNumVertices(); ++vertex) {
+            const auto faces = level_.GetVertexFaces(vertex);
+            const auto positions = level_.GetVertexFaceLocalIndices(vertex);
+            std::vector<Touch> touches;
+            for (int i = 0; i < faces.size(); ++i) {
+                if (level_.IsFaceHole(faces[i])) continue;
+                const int corner = isNgon(faces[i]) ? 0 : positions[i];
+                touches.push_back({quadOf(faces[i], positions[i]), std::uint32_t(corner), 0, 0});
+            }
+            if (!touches.empty()) cornerOfVertex_[vertex] = addCorner(lowest(touches), touches, isAgreedVertex(vertex));
+        }
+    }
+
+    // The middle of a split edge is a corner of n-gon quads and a point on the sides of quads; an n-gon's corner owns
+    // it.
+    std::uint32_t addMiddleCorner(const std::vector<SideUse>& uses, bool isAgreed) {
+        std::vector<Touch> touches, ngonTouches;
+        for (const SideUse& use : uses) {
+            if (isNgon(use.face)) {
+                ngonTouches.push_back({quadOf(use.face, use.side), 1, 0, 0});
+                ngonTouches.push_back({quadOf(use.face, use.side + 1), 3, 0, 0});
+            } else {
+                touches.push_back({quadOf(use.face, 0), std::uint32_t(use.side), 0.5F, 0.5F});
+            }
+        }
+        touches.insert(touches.end(), ngonTouches.begin(), ngonTouches.end());
+        return addCorner(lowest(ngonTouches), touches, isAgreed);
+    }
+
+    // --- edges
+
+    void setSide(const Touch& touch, std::uint32_t edge, bool isReversed, std::uint32_t flags = 0) {
+        surface_.faces[touch.face].sides[touch.side] = edge | flags | (isReversed ? kSideReversed : 0);
+    }
+
+    /// Adds an edge whose first touch is its owner.
+    void addEdge(std::vector<Touch> touches, std::uint32_t start, std::uint32_t end, std::uint32_t partner,
+                 bool isAgreed) {
+        Edge edge{touches.front(), {start, end}, std::uint32_t(surface_.touches.size()), 0, partner};
+        if (isAgreed) edge.touchCount = addTouches(touches);
+        surface_.edges.push_back(edge);
+    }
+
+    void addWholeEdge(int cageEdge) {
+        const auto& uses = uses_[cageEdge];
+        const auto edge = std::uint32_t(surface_.edges.size());
+        const int start = startVertex(uses.front());
+        std::vector<Touch> touches;
+        for (const SideUse& use : uses) {
+            const bool isReversed = startVertex(use) != start;
+            Touch touch{quadOf(use.face, 0), std::uint32_t(use.side), 0, 1};
+            if (isReversed) std::swap(touch.start, touch.end);
+            touches.push_back(touch);
+            setSide(touch, edge, isReversed);
+        }
+        addEdge(touches, cornerOfVertex_[start], cornerOfVertex_[endVertex(uses.front())], edge,
+                isAgreedEdge(cageEdge));
+    }
+
+    /// Half 0 or 1 of a side in the direction of its face.
+    [[nodiscard]] Touch halfSide(const SideUse& use, int half) const {
+        if (!isNgon(use.face))
+            return {quadOf(use.face, 0), std::uint32_t(use.side), 0.5F * float(half), 0.5F * float(half + 1)};
+        if (half == 0) return {quadOf(use.face, use.side), 0, 0, 1};
+        return {quadOf(use.face, use.side + 1), 3, 0, 1};
+    }
+
+    void addSplitEdge(int cageEdge) {
+        const auto& uses = uses_[cageEdge];
+        const bool isAgreed = isAgreedEdge(cageEdge);
+        const int start = startVertex(uses.front());
+        const std::uint32_t middle = addMiddleCorner(uses, isAgreed);
+        const std::uint32_t ends[] = {cornerOfVertex_[start], middle, cornerOfVertex_[endVertex(uses.front())]};
+        const auto first = std::uint32_t(surface_.edges.size());
+        for (int half = 0; half < 2; ++half) {
+            std::vector<Touch> touches;
+            for (const SideUse& use : uses) {
+                const bool isReversed = startVertex(use) != start;
+                Touch touch = halfSide(use, isReversed ? 1 - half : half);
+                if (isReversed) std::swap(touch.start, touch.end);
+                touches.push_back(touch);
+                if (isNgon(use.face))
+                    setSide(touch, first + half, isReversed);
+                else
+                    setSide(touch, first, isReversed, kSideSplit);
+            }
+            addEdge(touches, ends[half], ends[half + 1], first + 1 - half, isAgreed);
+        }
+    }
+
+    /// The corner where side 0 of the n-gon's quad `i` ends.
+    [[nodiscard]] std::uint32_t middleOfSide(int face, int i) const {
+        const std::uint32_t side = surface_.faces[quadOf(face, i)].sides[0];
+        return surface_.edges[side & kSideEdgeMask].corners[(side & kSideReversed) ? 0 : 1];
+    }
+
+    /// The centre of an n-gon and the edges that run from its sides' middles to the centre.
+    void addInside(int face) {
+        const int size = sizeOf(face);
+        std::vector<Touch> touches;
+        touches.reserve(size);
+        for (int i = 0; i < size; ++i) touches.push_back({quadOf(face, i), 2, 0, 0});
+        const std::uint32_t center = addCorner(touches.front(), touches, isBilinear_);
+        for (int i = 0; i < size; ++i) {
+            const std::uint32_t middle = middleOfSide(face, i);
+            const auto edge = std::uint32_t(surface_.edges.size());
+            Touch inward{quadOf(face, i), 1, 0, 1}, outward{quadOf(face, i + 1), 2, 0, 1};
+            const bool isInward = inward.face < outward.face;
+            setSide(inward, edge, !isInward);
+            setSide(outward, edge, isInward);
+            if (isInward) {
+                std::swap(outward.start, outward.end);
+                addEdge({inward, outward}, middle, center, edge, isBilinear_);
+            } else {
+                std::swap(inward.start, inward.end);
+                addEdge({outward, inward}, center, middle, edge, isBilinear_);
+            }
+        }
+    }
+
+    Surface& surface_;
+    const Far::TopologyLevel& level_;
+    Far::PtexIndices ptex_;
+    bool isBilinear_;
+    float sharpLimit_;                       ///< edges and vertices sharper than this stay sharp in the limit
+    std::vector<std::vector<SideUse>> uses_; ///< drawn faces on each edge of the cage, in index order
+    std::vector<std::uint32_t> cornerOfVertex_;
+};
+
+} // namespace
+
+void fillOwners(Surface& surface, const FarTables& tables, const Cage& cage) {
+    OwnerBuilder(surface, tables, cage).build();
+}
+
+} // namespace relief

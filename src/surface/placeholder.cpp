@@ -1,1 +1,0 @@
-#include "surface/surface.h"

@@ -1,0 +1,163 @@
+// From a cage to OpenSubdiv's refined topology, patch table and point values.
+#include <algorithm>
+#include <mutex>
+
+#include "surface/far.h"
+
+namespace relief {
+namespace {
+
+using OpenSubdiv::Sdc::Options;
+using OpenSubdiv::Sdc::SchemeType;
+using RefinerFactory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
+
+// OpenSubdiv would print its complaints; the last one of this thread is kept for our own message instead.
+thread_local std::string lastComplaint;
+
+void keepComplaints() {
+    static std::once_flag once;
+    std::call_once(once, [] {
+        Far::SetErrorCallback([](Far::ErrorType, const char* message) { lastComplaint = message; });
+        Far::SetWarningCallback([](const char*) {});
+    });
+    lastComplaint.clear();
+}
+
+[[noreturn]] void failWithComplaint(const char* what) {
+    std::replace(lastComplaint.begin(), lastComplaint.end(), '\n', ' ');
+    while (!lastComplaint.empty() && lastComplaint.back() == ' ') lastComplaint.pop_back();
+    fail(Failure::input, "{}: {}", what, lastComplaint.empty() ? "no reason given" : lastComplaint);
+}
+
+SchemeType schemeType(Scheme scheme) {
+    switch (scheme) {
+    case Scheme::loop: return OpenSubdiv::Sdc::SCHEME_LOOP;
+    case Scheme::bilinear: return OpenSubdiv::Sdc::SCHEME_BILINEAR;
+    default: return OpenSubdiv::Sdc::SCHEME_CATMARK;
+    }
+}
+
+Options schemeOptions(const Cage& cage) {
+    Options options;
+    options.SetVtxBoundaryInterpolation(Options::VtxBoundaryInterpolation(cage.boundaryRule));
+    options.SetFVarLinearInterpolation(Options::FVarLinearInterpolation(cage.texBoundaryRule));
+    options.SetCreasingMethod(cage.creaseMethod == CreaseMethod::chaikin ? Options::CREASE_CHAIKIN
+                                                                         : Options::CREASE_UNIFORM);
+    return options;
+}
+
+const int* asInts(const std::vector<std::uint32_t>& indices) { return reinterpret_cast<const int*>(indices.data()); }
+
+Far::TopologyDescriptor describe(const Cage& cage, Far::TopologyDescriptor::FVarChannel& texChannel) {
+    Far::TopologyDescriptor topology;
+    topology.numVertices = int(cage.positions.size());
+    topology.numFaces = int(cage.faceCount());
+    topology.numVertsPerFace = asInts(cage.faceSizes);
+    topology.vertIndicesPerFace = asInts(cage.corners);
+    topology.numCreases = int(cage.creaseSharpness.size());
+    topology.creaseVertexIndexPairs = asInts(cage.creaseEdges);
+    topology.creaseWeights = cage.creaseSharpness.data();
+    topology.numCorners = int(cage.vertexSharpness.size());
+    topology.cornerVertexIndices = asInts(cage.sharpVertices);
+    topology.cornerWeights = cage.vertexSharpness.data();
+    topology.numHoles = int(cage.holes.size());
+    topology.holeIndices = asInts(cage.holes);
+    if (cage.hasTexCoords()) {
+        texChannel.numValues = int(cage.texCoords.size());
+        texChannel.valueIndices = asInts(cage.texCorners);
+        topology.numFVarChannels = 1;
+        topology.fvarChannels = &texChannel;
+    }
+    return topology;
+}
+
+void checkForLoop(const Cage& cage) {
+    for (std::size_t face = 0; face < cage.faceCount(); ++face)
+        if (cage.faceSizes[face] != 3)
+            fail(Failure::input, "face {} has {} corners: the loop scheme takes triangles only (try --scheme catmark)",
+                 face, cage.faceSizes[face]);
+}
+
+Far::PatchTableFactory::Options patchOptions(bool hasTexCoords, int isolation) {
+    Far::PatchTableFactory::Options options(isolation);
+    options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
+    options.useInfSharpPatch = true;
+    options.useSingleCreasePatch = false; // the evaluators ignore such a patch's sharpness
+    options.generateLegacySharpCornerPatches = false;
+    options.generateVaryingTables = false;
+    options.generateFVarTables = hasTexCoords;
+    options.generateFVarLegacyLinearPatches = false;
+    options.SetPatchPrecision<double>();
+    options.SetFVarPatchPrecision<double>();
+    return options;
+}
+
+// n-gons are quads from level 1 on: without that level they would have no patches.
+int leastIsolation(const Cage& cage, Scheme scheme) {
+    const auto isQuad = [](std::uint32_t size) { return size == 4; };
+    return scheme == Scheme::loop || std::all_of(cage.faceSizes.begin(), cage.faceSizes.end(), isQuad) ? 0 : 1;
+}
+
+} // namespace
+
+std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme scheme) {
+    if (cage.faceSizes.empty()) fail(Failure::input, "the cage has no faces");
+    if (scheme == Scheme::loop) checkForLoop(cage);
+    keepComplaints();
+    Far::TopologyDescriptor::FVarChannel texChannel;
+    const RefinerFactory::Options options(schemeType(scheme), schemeOptions(cage));
+    std::unique_ptr<Far::TopologyRefiner> refiner(RefinerFactory::Create(describe(cage, texChannel), options));
+    if (!refiner) failWithComplaint("the cage's topology cannot be subdivided");
+    return refiner;
+}
+
+FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options) {
+    if (options.isolation < 0 || options.isolation > 10)
+        fail(Failure::usage, "isolation {} is out of range: 0..10", options.isolation);
+    FarTables tables;
+    tables.refiner = makeRefiner(cage, options.scheme);
+    tables.hasTexCoords = cage.hasTexCoords();
+    tables.isolation = std::max(options.isolation, leastIsolation(cage, options.scheme));
+    const auto patchTableOptions = patchOptions(tables.hasTexCoords, tables.isolation);
+    tables.refiner->RefineAdaptive(patchTableOptions.GetRefineAdaptiveOptions());
+    tables.patches.reset(Far::PatchTableFactory::Create(*tables.refiner, patchTableOptions));
+    if (!tables.patches) failWithComplaint("no patches could be made of the cage");
+    return tables;
+}
+
+std::vector<Point> refineAll(const FarTables& tables, std::span<const vec3> cagePositions) {
+    const int refinedCount = tables.refiner->GetNumVerticesTotal();
+    std::vector<Point> points(std::size_t(refinedCount) + tables.patches->GetNumLocalPoints());
+    for (std::size_t i = 0; i < cagePositions.size(); ++i) points[i].value = dvec3(cagePositions[i]);
+
+    const Far::PrimvarRefinerReal<double> refiner(*tables.refiner);
+    Point* coarse = points.data();
+    for (int level = 1; level < tables.refiner->GetNumLevels(); ++level) {
+        Point* fine = coarse + tables.refiner->GetLevel(level - 1).GetNumVertices();
+        refiner.Interpolate(level, coarse, fine);
+        coarse = fine;
+    }
+    if (const auto* local = tables.patches->GetLocalPointStencilTable<double>())
+        local->UpdateValues(points.data(), points.data() + refinedCount);
+    return points;
+}
+
+std::vector<TexPoint> refineAllTex(const FarTables& tables, const std::vector<vec2>& texCoords) {
+    if (!tables.hasTexCoords) return {};
+    const int refinedCount = tables.refiner->GetNumFVarValuesTotal();
+    std::vector<TexPoint> points(std::size_t(refinedCount) + tables.patches->GetNumLocalPointsFaceVarying());
+    for (std::size_t i = 0; i < texCoords.size(); ++i) points[i].value = dvec2(texCoords[i]);
+
+    const Far::PrimvarRefinerReal<double> refiner(*tables.refiner);
+    TexPoint* coarse = points.data();
+    for (int level = 1; level < tables.refiner->GetNumLevels(); ++level) {
+        TexPoint* fine = coarse + tables.refiner->GetLevel(level - 1).GetNumFVarValues();
+        refiner.InterpolateFaceVarying(level, coarse, fine);
+        coarse = fine;
+    }
+    if (const auto* local = tables.patches->GetLocalPointFaceVaryingStencilTable<double>())
+        local->UpdateValues(points.data(), points.data() + refinedCount);
+    return points;
+}
+
+} // namespace relief

@@ -1,0 +1,83 @@
+// Stencils of refined and local points, cut down to the points that some patch uses.
+#include <opensubdiv/far/stencilTableFactory.h>
+
+#include "surface/far.h"
+
+namespace relief {
+namespace {
+
+using StencilTable = Far::StencilTableReal<double>;
+using StencilFactory = Far::StencilTableFactoryReal<double>;
+
+std::unique_ptr<const StencilTable> makeStencils(const FarTables& tables) {
+    StencilFactory::Options options;
+    options.generateOffsets = true;
+    std::unique_ptr<const StencilTable> refined(StencilFactory::Create(*tables.refiner, options));
+    const auto* local = tables.patches->GetLocalPointStencilTable<double>();
+    if (local && local->GetNumStencils() > 0)
+        refined.reset(StencilFactory::AppendLocalPointStencilTable(*tables.refiner, refined.get(), local));
+    return refined;
+}
+
+/// Renumbers `indices` at or past `first` in order of their first use; returns the old index of each new one.
+std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uint32_t first, std::size_t count) {
+    std::vector<std::uint32_t> newIndex(count, kNoPatch), oldIndex;
+    for (std::uint32_t& index : indices) {
+        if (index < first) continue;
+        std::uint32_t& renamed = newIndex[index - first];
+        if (renamed == kNoPatch) {
+            renamed = first + std::uint32_t(oldIndex.size());
+            oldIndex.push_back(index);
+        }
+        index = renamed;
+    }
+    return oldIndex;
+}
+
+} // namespace
+
+void fillStencils(Surface& surface, const FarTables& tables) {
+    const auto table = makeStencils(tables);
+    surface.controlPointCount = tables.refiner->GetLevel(0).GetNumVertices();
+    const auto used = compact(surface.patchPoints, surface.controlPointCount, table->GetNumStencils());
+
+    Stencils& stencils = surface.stencils;
+    stencils.offsets.reserve(used.size() + 1);
+    stencils.offsets.push_back(0);
+    for (const std::uint32_t point : used) {
+        const auto row = table->GetStencil(int(point - surface.controlPointCount));
+        for (int k = 0; k < row.GetSize(); ++k) {
+            stencils.indices.push_back(row.GetVertexIndices()[k]);
+            stencils.weights.push_back(float(row.GetWeights()[k]));
+        }
+        stencils.offsets.push_back(std::uint32_t(stencils.indices.size()));
+    }
+}
+
+void fillTexPoints(Surface& surface, const FarTables& tables, const std::vector<vec2>& texCoords) {
+    const auto points = refineAllTex(tables, texCoords);
+    for (const std::uint32_t used : compact(surface.texPatchPoints, 0, points.size()))
+        surface.texPoints.emplace_back(points[used].value);
+}
+
+std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cagePositions) {
+    if (cagePositions.size() != surface.controlPointCount)
+        fail(Failure::input, "{} positions were given for a cage of {} points", cagePositions.size(),
+             surface.controlPointCount);
+    const Stencils& stencils = surface.stencils;
+    std::vector<vec3> points(cagePositions.begin(), cagePositions.end());
+    points.reserve(points.size() + stencils.rowCount());
+    for (std::size_t row = 0; row < stencils.rowCount(); ++row) {
+        // A row's weights sum to 1; taken as offsets from one of its points, their rounding scales with the row's
+        // extent and not with its distance from the origin.
+        const std::uint32_t first = stencils.offsets[row];
+        const dvec3 origin(cagePositions[stencils.indices[first]]);
+        dvec3 offset(0);
+        for (std::uint32_t k = first + 1; k < stencils.offsets[row + 1]; ++k)
+            offset += double(stencils.weights[k]) * (dvec3(cagePositions[stencils.indices[k]]) - origin);
+        points.emplace_back(origin + offset);
+    }
+    return points;
+}
+
+} // namespace relief

@@ -1,0 +1,45 @@
+#include <chrono>
+
+#include "surface/far.h"
+
+namespace relief {
+namespace {
+
+template <typename T>
+std::uint64_t bytesOf(const std::vector<T>& array) {
+    return array.size() * sizeof(T);
+}
+
+} // namespace
+
+std::uint64_t Surface::byteCount() const {
+    return bytesOf(faces) + bytesOf(tree) + bytesOf(patches) + bytesOf(patchPoints) + bytesOf(stencils.offsets) +
+           bytesOf(stencils.indices) + bytesOf(stencils.weights) + bytesOf(texPoints) + bytesOf(texPatchPoints) +
+           bytesOf(edges) + bytesOf(corners) + bytesOf(touches);
+}
+
+dvec2 sidePoint(int sideCount, int side, double x) {
+    if (sideCount == 3) {
+        const dvec2 points[] = {{x, 0}, {1 - x, x}, {0, 1 - x}};
+        return points[side];
+    }
+    const dvec2 points[] = {{x, 0}, {1, x}, {1 - x, 1}, {0, 1 - x}};
+    return points[side];
+}
+
+Surface buildSurface(const Cage& cage, const SurfaceOptions& options) {
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    Surface surface;
+    surface.scheme = options.scheme;
+    surface.sideCount = options.scheme == Scheme::loop ? 3 : 4;
+    const FarTables tables = makeFarTables(cage, options);
+    fillPatches(surface, tables);
+    fillStencils(surface, tables);
+    fillTexPoints(surface, tables, cage.texCoords);
+    surface.tableSeconds = std::chrono::duration<double>(Clock::now() - start).count();
+    fillOwners(surface, tables, cage);
+    return surface;
+}
+
+} // namespace relief
