@@ -13,13 +13,13 @@ enum class Scheme { catmark, loop, bilinear };
 
 struct SurfaceOptions {
     Scheme scheme = Scheme::catmark;
-    int isolation = 6;           ///< levels of adaptive refinement around features, 0..10
+    int isolation = 6; ///< levels of adaptive refinement around features, 0..10
 };
 
 /// point[controlPointCount + row] = sum of weights[k] * cage position[indices[k]], k in [offsets[row], offsets[row+1]).
 struct Stencils {
-    std::vector<std::uint32_t> offsets;  ///< rowCount + 1 entries
-    std::vector<std::uint32_t> indices;  ///< into the cage's positions
+    std::vector<std::uint32_t> offsets; ///< rowCount + 1 entries
+    std::vector<std::uint32_t> indices; ///< into the cage's positions
     std::vector<float> weights;
 
     [[nodiscard]] std::size_t rowCount() const { return offsets.empty() ? 0 : offsets.size() - 1; }
@@ -28,31 +28,31 @@ struct Stencils {
 /// What the device draws: built once for a cage's topology, valid for every pose of it.
 struct Surface {
     Scheme scheme = Scheme::catmark;
-    int sideCount = 4;                        ///< sides a face: 4, or 3 for Loop
+    int sideCount = 4; ///< sides a face: 4, or 3 for Loop
     std::uint32_t controlPointCount = 0;
 
-    std::vector<Face> faces;                  ///< ptex faces in OpenSubdiv's order; holes have root kNoPatch
-    std::vector<std::uint32_t> tree;          ///< entries; children of one node are four in a row
+    std::vector<Face> faces;         ///< ptex faces in OpenSubdiv's order; holes have root kNoPatch
+    std::vector<std::uint32_t> tree; ///< entries; children of one node are four in a row
     std::vector<Patch> patches;
-    std::vector<std::uint32_t> patchPoints;   ///< point indices: cage points, then stencil rows
-    Stencils stencils;                        ///< refined and local points
+    std::vector<std::uint32_t> patchPoints; ///< point indices: cage points, then stencil rows
+    Stencils stencils;                      ///< refined and local points
 
-    std::vector<vec2> texPoints;              ///< face-varying points, refined and local; empty without texture coordinates
+    std::vector<vec2> texPoints; ///< face-varying points, refined and local; empty without texture coordinates
     std::vector<std::uint32_t> texPatchPoints;
 
     std::vector<Edge> edges;
     std::vector<Corner> corners;
     std::vector<Touch> touches;
 
-    bool isClosed = false;                    ///< no boundary edges and no holes
-    double tableSeconds = 0;                  ///< time spent inside OpenSubdiv
+    bool isClosed = false;   ///< no boundary edges and no holes
+    double tableSeconds = 0; ///< time spent inside OpenSubdiv
 
     [[nodiscard]] bool hasTexCoords() const { return !texPoints.empty(); }
     [[nodiscard]] std::uint64_t byteCount() const;
 };
 
-/// Refines adaptively, builds patches, stencils, trees and owners. Throws Failure::input for cages that the scheme cannot
-/// take (Loop wants triangles) and Failure::usage for an isolation out of range.
+/// Refines adaptively, builds patches, stencils, trees and owners. Throws Failure::input for cages that the scheme
+/// cannot take (Loop wants triangles) and Failure::usage for an isolation out of range.
 Surface buildSurface(const Cage& cage, const SurfaceOptions& options);
 
 /// Cage points, then every stencil row: what Surface::patchPoints index. Sums run in double and round once.
@@ -72,8 +72,8 @@ struct TexFrame {
     dmat2 jacobian{1};
 };
 
-/// The oracle: Far patches in double precision with the library's known traps corrected (n-gon derivative scale, sign of
-/// turned triangles, true derivatives of Gregory patches). Shares no code with the shaders.
+/// The oracle: Far patches in double precision with the library's known traps corrected (n-gon derivative scale, sign
+/// of turned triangles, true derivatives of Gregory patches). Shares no code with the shaders.
 class ReferenceSurface {
 public:
     ReferenceSurface(const Cage& cage, const SurfaceOptions& options);
@@ -84,7 +84,7 @@ public:
     /// Poses the cage: same count as the cage's positions.
     void pose(std::span<const vec3> cagePositions);
 
-    [[nodiscard]] int faceCount() const;              ///< ptex faces, holes included
+    [[nodiscard]] int faceCount() const; ///< ptex faces, holes included
     [[nodiscard]] int sideCount() const;
     [[nodiscard]] bool isHole(int face) const;
     /// True when (u,v) falls in an end cap at an extraordinary vertex, where the patch only approximates the surface.
@@ -92,7 +92,8 @@ public:
     [[nodiscard]] LimitFrame limit(int face, const dvec2& uv) const;
     /// (u,v) itself with the unit Jacobian where the cage has no texture coordinates.
     [[nodiscard]] TexFrame texture(int face, const dvec2& uv) const;
-    /// Unit normal of the frame; where p_u and p_v are parallel or vanish, from a point slightly towards the face's centre.
+    /// Unit normal of the frame; where p_u and p_v are parallel or vanish, from a point slightly towards the face's
+    /// centre.
     [[nodiscard]] dvec3 normal(int face, const dvec2& uv) const;
 
 private:

@@ -1,0 +1,188 @@
+// The double-precision evaluator: OpenSubdiv's patches, with the derivatives that it gets wrong put right.
+#include <algorithm>
+#include <cmath>
+
+#include <opensubdiv/far/patchMap.h>
+
+#include "surface/far.h"
+#include "surface/gregory.h"
+
+namespace relief {
+namespace {
+
+using Descriptor = Far::PatchDescriptor;
+
+bool isGregory(int type) { return type == Descriptor::GREGORY_BASIS || type == Descriptor::GREGORY_TRIANGLE; }
+
+/// Weights of a Gregory patch at the face's (u,v), derivatives by the face's (u,v).
+PatchWeights gregoryWeights(int type, const Far::PatchParam& param, dvec2 uv) {
+    double slope = 1 << depthInFace(param);
+    PatchWeights weights;
+    if (type == Descriptor::GREGORY_BASIS) {
+        param.Normalize(uv.x, uv.y);
+        weights = gregoryQuadWeights(uv.x, uv.y);
+    } else {
+        param.NormalizeTriangle(uv.x, uv.y);
+        weights = gregoryTriangleWeights(uv.x, uv.y);
+        if (param.IsTriangleRotated()) slope = -slope;
+    }
+    for (Jet& w : weights) {
+        w.u *= slope, w.v *= slope;
+        w.uu *= slope * slope, w.uv *= slope * slope, w.vv *= slope * slope;
+    }
+    return weights;
+}
+
+/// OpenSubdiv differentiates by the (u,v) of the n-gon's parent quad and forgets that a turned triangle's second
+/// derivatives keep their sign.
+void correctDerivatives(PatchWeights& weights, int sideCount, const Far::PatchParam& param) {
+    const double slope = param.NonQuadRoot() ? 0.5 : 1;
+    const bool isTurned = sideCount == 3 && param.IsTriangleRotated();
+    const double bend = slope * slope * (isTurned ? -1 : 1);
+    for (Jet& w : weights) {
+        w.u *= slope, w.v *= slope;
+        w.uu *= bend, w.uv *= bend, w.vv *= bend;
+    }
+}
+
+/// Weights that OpenSubdiv wrote as six arrays.
+struct WeightArrays {
+    double p[kMostPatchPoints]{}, u[kMostPatchPoints]{}, v[kMostPatchPoints]{};
+    double uu[kMostPatchPoints]{}, uv[kMostPatchPoints]{}, vv[kMostPatchPoints]{};
+
+    [[nodiscard]] PatchWeights jets() const {
+        PatchWeights weights;
+        for (int i = 0; i < kMostPatchPoints; ++i) weights[i] = {p[i], u[i], v[i], uu[i], uv[i], vv[i]};
+        return weights;
+    }
+};
+
+bool hasFiniteSharpnessPast(const Cage& cage, int isolation) {
+    const auto isPast = [&](float sharpness) {
+        return sharpness > float(isolation) && sharpness < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE;
+    };
+    return std::any_of(cage.creaseSharpness.begin(), cage.creaseSharpness.end(), isPast) ||
+           std::any_of(cage.vertexSharpness.begin(), cage.vertexSharpness.end(), isPast);
+}
+
+} // namespace
+
+struct ReferenceSurface::Parts {
+    using Handle = Far::PatchTable::PatchHandle;
+
+    Parts(const Cage& cage, const SurfaceOptions& options)
+        : tables(makeFarTables(cage, options)), map(*tables.patches), sideCount(options.scheme == Scheme::loop ? 3 : 4),
+          points(refineAll(tables, cage.positions)), texPoints(refineAllTex(tables, cage.texCoords)),
+          isCutShort(hasFiniteSharpnessPast(cage, tables.isolation)) {}
+
+    [[nodiscard]] const Handle* find(int face, const dvec2& uv) const { return map.FindPatch(face, uv.x, uv.y); }
+
+    [[nodiscard]] const Handle& patchAt(int face, const dvec2& uv) const {
+        const int faceCount = tables.patches->GetNumPtexFaces();
+        if (face < 0 || face >= faceCount) fail(Failure::input, "face {} is out of range: 0..{}", face, faceCount - 1);
+        const Handle* handle = find(face, uv);
+        if (!handle) fail(Failure::input, "face {} is a hole: it has no surface", face);
+        return *handle;
+    }
+
+    [[nodiscard]] PatchWeights weightsAt(const Handle& handle, const dvec2& uv) const {
+        const Far::PatchParam param = tables.patches->GetPatchParam(handle);
+        const int type = tables.patches->GetPatchDescriptor(handle).GetType();
+        if (isGregory(type)) return gregoryWeights(type, param, uv);
+        WeightArrays w;
+        tables.patches->EvaluateBasis(handle, uv.x, uv.y, w.p, w.u, w.v, w.uu, w.uv, w.vv);
+        PatchWeights weights = w.jets();
+        correctDerivatives(weights, sideCount, param);
+        return weights;
+    }
+
+    [[nodiscard]] PatchWeights texWeightsAt(const Handle& handle, const dvec2& uv) const {
+        const Far::PatchTable& patches = *tables.patches;
+        const Far::PatchParam param = patches.GetPatchFVarPatchParam(handle);
+        const int type =
+            (param.IsRegular() ? patches.GetFVarPatchDescriptorRegular() : patches.GetFVarPatchDescriptorIrregular())
+                .GetType();
+        if (isGregory(type)) return gregoryWeights(type, param, uv);
+        WeightArrays w;
+        patches.EvaluateBasisFaceVarying(handle, uv.x, uv.y, w.p, w.u, w.v);
+        PatchWeights weights = w.jets();
+        correctDerivatives(weights, sideCount, param);
+        return weights;
+    }
+
+    FarTables tables;
+    Far::PatchMap map;
+    int sideCount;
+    std::vector<Point> points;
+    std::vector<TexPoint> texPoints;
+    bool isCutShort; ///< some finite sharpness outlasts the isolation
+};
+
+ReferenceSurface::ReferenceSurface(const Cage& cage, const SurfaceOptions& options)
+    : parts_(std::make_unique<Parts>(cage, options)) {}
+ReferenceSurface::~ReferenceSurface() = default;
+ReferenceSurface::ReferenceSurface(ReferenceSurface&&) noexcept = default;
+ReferenceSurface& ReferenceSurface::operator=(ReferenceSurface&&) noexcept = default;
+
+void ReferenceSurface::pose(std::span<const vec3> cagePositions) {
+    const auto count = std::size_t(parts_->tables.refiner->GetLevel(0).GetNumVertices());
+    if (cagePositions.size() != count)
+        fail(Failure::input, "{} positions were given for a cage of {} points", cagePositions.size(), count);
+    parts_->points = refineAll(parts_->tables, cagePositions);
+}
+
+int ReferenceSurface::faceCount() const { return parts_->tables.patches->GetNumPtexFaces(); }
+
+int ReferenceSurface::sideCount() const { return parts_->sideCount; }
+
+bool ReferenceSurface::isHole(int face) const { return !parts_->find(face, dvec2(0)); }
+
+bool ReferenceSurface::isApproximate(int face, const dvec2& uv) const {
+    const auto& patches = *parts_->tables.patches;
+    const auto& handle = parts_->patchAt(face, uv);
+    if (isGregory(patches.GetPatchDescriptor(handle).GetType())) return true;
+    return parts_->isCutShort && patches.GetPatchParam(handle).GetDepth() >= parts_->tables.isolation;
+}
+
+LimitFrame ReferenceSurface::limit(int face, const dvec2& uv) const {
+    const auto& handle = parts_->patchAt(face, uv);
+    const PatchWeights weights = parts_->weightsAt(handle, uv);
+    const auto indices = parts_->tables.patches->GetPatchVertices(handle);
+    LimitFrame frame;
+    for (int i = 0; i < indices.size(); ++i) {
+        const dvec3& p = parts_->points[indices[i]].value;
+        const Jet& w = weights[i];
+        frame.p += w.f * p;
+        frame.pu += w.u * p, frame.pv += w.v * p;
+        frame.puu += w.uu * p, frame.puv += w.uv * p, frame.pvv += w.vv * p;
+    }
+    return frame;
+}
+
+TexFrame ReferenceSurface::texture(int face, const dvec2& uv) const {
+    const auto& handle = parts_->patchAt(face, uv);
+    if (parts_->texPoints.empty()) return {uv, dmat2(1)};
+    const PatchWeights weights = parts_->texWeightsAt(handle, uv);
+    const auto indices = parts_->tables.patches->GetPatchFVarValues(handle);
+    TexFrame frame{dvec2(0), dmat2(0)};
+    for (int i = 0; i < indices.size(); ++i) {
+        const dvec2& st = parts_->texPoints[indices[i]].value;
+        frame.st += weights[i].f * st;
+        frame.jacobian[0] += weights[i].u * st;
+        frame.jacobian[1] += weights[i].v * st;
+    }
+    return frame;
+}
+
+dvec3 ReferenceSurface::normal(int face, const dvec2& uv) const {
+    const dvec2 center(parts_->sideCount == 4 ? 1.0 / 2 : 1.0 / 3);
+    for (const double step : {0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+        const LimitFrame frame = limit(face, glm::mix(uv, center, step));
+        const dvec3 m = glm::cross(frame.pu, frame.pv);
+        const double longest = std::max(glm::dot(frame.pu, frame.pu), glm::dot(frame.pv, frame.pv));
+        if (glm::length(m) > 1e-6 * longest) return glm::normalize(m);
+    }
+    return {0, 0, 1}; // the face has no area: any direction is as good
+}
+
+} // namespace relief
