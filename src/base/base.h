@@ -107,6 +107,9 @@ void writeImage(const std::string& path, const Image& image, SampleType sample);
 /// written or `path` is something else than a file (a folder, a device).
 void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
+/// Writes `bytes` as the file `path`, whole or not at all. Throws Failure::file when writing fails.
+void writeFile(const std::string& path, std::string_view bytes);
+
 /// The whole file as bytes. Throws Failure::file, or Failure::input when it is longer than `limit` bytes.
 std::string readFile(const std::string& path, std::uint64_t limit = 1ull << 32);
 

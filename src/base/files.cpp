@@ -68,6 +68,10 @@ struct CloseFile {
     fail(Failure::file, "{}: cannot be read: {}", path, std::generic_category().message(errno));
 }
 
+[[noreturn]] void failToWrite(const std::string& path) {
+    fail(Failure::file, "{}: cannot be written: {}", path, std::generic_category().message(errno));
+}
+
 [[noreturn]] void failTooLong(const std::string& path, std::uint64_t limit) {
     fail(Failure::input, "{}: the file is longer than {}, the most that is read", path, humanBytes(limit));
 }
@@ -81,6 +85,15 @@ void writeWhole(const std::string& path, const std::function<void(const std::str
     std::error_code error;
     fs::rename(temporary.path, target, error);
     if (error) fail(Failure::file, "{}: cannot be written: {}", path, error.message());
+}
+
+void writeFile(const std::string& path, std::string_view bytes) {
+    writeWhole(path, [&](const std::string& temporary) {
+        std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
+        if (!file) failToWrite(path);
+        if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) failToWrite(path);
+        if (std::fclose(file.release()) != 0) failToWrite(path); // a full disk may show only here
+    });
 }
 
 std::string readFile(const std::string& path, std::uint64_t limit) {

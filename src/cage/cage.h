@@ -13,18 +13,18 @@ enum class TexBoundaryRule { none = 0, cornersOnly = 1, cornersPlus1 = 2, corner
 
 enum class CreaseMethod { uniform, chaikin };
 
-/// A named run of faces (OBJ `o`/`g`, with its `usemtl`).
+/// A named run of faces.
 struct CagePart {
-    std::string name;
-    std::string material;
+    std::string name;     ///< OBJ: the latest `o` or `g`; may be empty
+    std::string material; ///< OBJ: `usemtl`; may be empty
     std::uint32_t firstFace = 0, faceCount = 0;
 };
 
 /// Plain arrays; all indices count from 0 and are valid once a loader returns it.
 struct Cage {
     std::vector<vec3> positions;
-    std::vector<std::uint32_t> faceSizes;     ///< corners a face, each >= 3
-    std::vector<std::uint32_t> corners;       ///< position index, all faces in a row: sum(faceSizes) entries
+    std::vector<std::uint32_t> faceSizes; ///< corners a face, each >= 3
+    std::vector<std::uint32_t> corners;   ///< position index, all faces in a row: sum(faceSizes) entries
 
     std::vector<vec2> texCoords;              ///< face-varying values (s,t), t up; empty when the cage has none
     std::vector<std::uint32_t> texCorners;    ///< texCoords index for each corner, or empty
@@ -41,7 +41,7 @@ struct Cage {
     TexBoundaryRule texBoundaryRule = TexBoundaryRule::cornersPlus1;
     CreaseMethod creaseMethod = CreaseMethod::uniform;
 
-    std::vector<CagePart> parts;
+    std::vector<CagePart> parts; ///< empty, or runs that cover all faces in order
 
     [[nodiscard]] std::size_t faceCount() const { return faceSizes.size(); }
     [[nodiscard]] bool hasTexCoords() const { return !texCorners.empty(); }
@@ -57,25 +57,28 @@ struct Cage {
 Cage readCage(const std::string& path, const Warn& warn = warnOnStderr);
 
 /// The same from text in memory; `name` stands for the file in messages.
+/// Tags count vertices and faces from 0 through the whole file, whatever object they stand in. Either all faces have
+/// texture coordinates or none has; normals that only some faces have are dropped with a warning.
 Cage parseObj(const std::string& text, const std::string& name, const Warn& warn = warnOnStderr);
 
 /// Writes positions, texture coordinates, faces, tags and parts as OBJ, whole or not at all.
 void writeObj(const std::string& path, const Cage& cage);
 
-/// Throws Failure::input when an index is out of range, a face has fewer than 3 corners, a number is not finite, a crease
-/// names no edge, a sharpness is negative or array sizes disagree. Every loader calls it; code that builds cages may.
+/// Throws Failure::input when an index is out of range, a face has fewer than 3 corners, a number is not finite, a
+/// crease names no edge, a sharpness is negative or array sizes disagree. Every loader calls it; code that builds cages
+/// may.
 void validateCage(const Cage& cage, const std::string& name);
 
 /// What `relief info` prints of a cage.
 struct CageSummary {
     std::uint64_t vertexCount = 0, faceCount = 0, edgeCount = 0, cornerCount = 0;
     std::uint64_t triangleCount = 0, quadCount = 0, otherFaceCount = 0;
-    std::uint64_t boundaryEdgeCount = 0, nonManifoldEdgeCount = 0;
-    std::uint64_t irregularVertexCount = 0;   ///< interior vertices of valence != 4 (quads) or != 6 (all triangles)
+    std::uint64_t boundaryEdgeCount = 0, nonManifoldEdgeCount = 0; ///< two faces in one direction, or more than two
+    std::uint64_t irregularVertexCount = 0; ///< interior vertices of valence != 4 (quads) or != 6 (all triangles)
     std::uint64_t maxValence = 0, unusedVertexCount = 0;
     std::uint64_t creasedEdgeCount = 0, sharpVertexCount = 0, holeCount = 0;
     std::uint64_t texCoordCount = 0, seamEdgeCount = 0; ///< edges whose two faces disagree about texture coordinates
-    Bounds bounds;
+    Bounds bounds;                                      ///< of the vertices that faces use
 };
 CageSummary summarize(const Cage& cage);
 

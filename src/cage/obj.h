@@ -1,0 +1,43 @@
+// The steps of reading an OBJ text, in order: scanObj checks lines, parseObj has tinyobjloader make arrays of them,
+// applyObjTags adds what tinyobjloader cannot be asked for.
+#pragma once
+
+#include "cage/cage.h"
+
+namespace relief {
+
+/// One `t` line: its words by type. What they mean is not checked yet.
+struct ObjTag {
+    std::size_t line = 0;
+    std::string name;
+    std::vector<int> ints;
+    std::vector<float> floats;
+    std::vector<std::string> strings;
+};
+
+/// An OBJ text whose every line has been checked; after that tinyobjloader, which accepts anything, can be trusted.
+struct ObjScan {
+    std::string text; ///< only v, vt, vn, f, o, g and usemtl; one statement a line, comments and continuations gone
+    std::vector<ObjTag> tags;
+    std::size_t vertexCount = 0, texCoordCount = 0, normalCount = 0, faceCount = 0, cornerCount = 0;
+    bool hasTexCoords = false; ///< all faces name texture coordinates
+    bool hasNormals = false;   ///< all faces name normals
+};
+
+/// Throws Failure::input, naming the line, for numbers that are not finite numbers, indices out of range, faces with
+/// fewer than 3 corners or a vertex used twice, and texture coordinates on some faces only.
+ObjScan scanObj(std::string_view text, const std::string& name, const Warn& warn);
+
+/// Adds creases, corners, holes and rules to the cage. Throws Failure::input, naming the line, for wrong sizes, indices
+/// out of range, creases that are no edge of a face and values that do not exist. Unknown tags and hierarchical edits
+/// are warned of once a name.
+void applyObjTags(const std::vector<ObjTag>& tags, Cage& cage, const std::string& name, const Warn& warn);
+
+/// Throws Failure::input as "NAME:LINE: ...".
+template <typename... Args>
+[[noreturn]] void failAtLine(const std::string& name, std::size_t line, fmt::format_string<Args...> format,
+                             Args&&... args) {
+    fail(Failure::input, "{}:{}: {}", name, line, fmt::format(format, std::forward<Args>(args)...));
+}
+
+} // namespace relief

@@ -1,0 +1,96 @@
+#include <sstream>
+
+#include <tiny_obj_loader.h>
+
+#include "cage/obj.h"
+
+namespace relief {
+
+namespace {
+
+/// What tinyobjloader calls back into, a statement at a time: its interface without the 255-corner limit, repeated tags
+/// and triangulation.
+struct Builder {
+    Cage cage;
+    bool hasTexCoords = false, hasNormals = false;
+    std::string name, material; ///< of the faces to come
+
+    void addFace(const tinyobj::index_t* corners, int count);
+    void addFaceToPart();
+};
+
+/// OBJ counts from 1, or back from the latest value.
+std::uint32_t fromZero(int index, std::size_t count) {
+    return std::uint32_t(index > 0 ? std::size_t(index) - 1 : count - std::size_t(-std::int64_t(index)));
+}
+
+void Builder::addFace(const tinyobj::index_t* corners, int count) {
+    cage.faceSizes.push_back(std::uint32_t(count));
+    for (int i = 0; i < count; ++i) {
+        cage.corners.push_back(fromZero(corners[i].vertex_index, cage.positions.size()));
+        if (hasTexCoords) cage.texCorners.push_back(fromZero(corners[i].texcoord_index, cage.texCoords.size()));
+        if (hasNormals) cage.normalCorners.push_back(fromZero(corners[i].normal_index, cage.normals.size()));
+    }
+    addFaceToPart();
+}
+
+void Builder::addFaceToPart() {
+    std::vector<CagePart>& parts = cage.parts;
+    if (parts.empty() || parts.back().name != name || parts.back().material != material)
+        parts.push_back({.name = name, .material = material, .firstFace = std::uint32_t(cage.faceCount() - 1)});
+    ++parts.back().faceCount;
+}
+
+Builder& builder(void* data) { return *static_cast<Builder*>(data); }
+
+std::string joinWords(const char** words, int count) { return fmt::format("{}", fmt::join(words, words + count, " ")); }
+
+tinyobj::callback_t makeCallbacks() {
+    tinyobj::callback_t on;
+    on.vertex_cb = [](void* data, float x, float y, float z, float) {
+        builder(data).cage.positions.emplace_back(x, y, z);
+    };
+    on.texcoord_cb = [](void* data, float s, float t, float) { builder(data).cage.texCoords.emplace_back(s, t); };
+    on.normal_cb = [](void* data, float x, float y, float z) { builder(data).cage.normals.emplace_back(x, y, z); };
+    on.index_cb = [](void* data, tinyobj::index_t* corners, int count) { builder(data).addFace(corners, count); };
+    on.object_cb = [](void* data, const char* name) { builder(data).name = name; };
+    on.group_cb = [](void* data, const char** names, int count) { builder(data).name = joinWords(names, count); };
+    on.usemtl_cb = [](void* data, const char* name, int) { builder(data).material = name; };
+    return on;
+}
+
+Cage buildArrays(ObjScan& scan, const std::string& name) {
+    Builder builder{
+        .cage = {}, .hasTexCoords = scan.hasTexCoords, .hasNormals = scan.hasNormals, .name = "", .material = ""};
+    Cage& cage = builder.cage;
+    cage.positions.reserve(scan.vertexCount);
+    cage.faceSizes.reserve(scan.faceCount);
+    cage.corners.reserve(scan.cornerCount);
+    cage.texCoords.reserve(scan.texCoordCount);
+    if (scan.hasTexCoords) cage.texCorners.reserve(scan.cornerCount);
+
+    std::istringstream stream(std::move(scan.text));
+    tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &builder);
+    if (cage.positions.size() != scan.vertexCount || cage.texCoords.size() != scan.texCoordCount ||
+        cage.faceCount() != scan.faceCount || cage.corners.size() != scan.cornerCount)
+        fail(Failure::internal, "{}: tinyobjloader read {} vertices and {} faces of {} and {}", name,
+             cage.positions.size(), cage.faceCount(), scan.vertexCount, scan.faceCount);
+
+    if (!scan.hasTexCoords) cage.texCoords.clear();
+    if (!scan.hasNormals) cage.normals.clear();
+    const bool isOneNamelessPart = cage.parts.size() == 1 && builder.name.empty() && builder.material.empty();
+    if (isOneNamelessPart) cage.parts.clear();
+    return std::move(builder.cage);
+}
+
+} // namespace
+
+Cage parseObj(const std::string& text, const std::string& name, const Warn& warn) {
+    ObjScan scan = scanObj(text, name, warn);
+    Cage cage = buildArrays(scan, name);
+    applyObjTags(scan.tags, cage, name, warn);
+    validateCage(cage, name);
+    return cage;
+}
+
+} // namespace relief

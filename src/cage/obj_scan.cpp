@@ -1,0 +1,315 @@
+// The checks that tinyobjloader leaves out. It reads "0,5", "nan" and missing words as 0, takes indices past the end,
+// counts a face's corners in one byte, drops faces of two corners and knows no line numbers.
+#include "cage/obj.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <span>
+
+namespace relief {
+
+namespace {
+
+using Words = std::vector<std::string_view>;
+
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr std::string_view kSpaces = " \t\v\f";
+constexpr std::size_t kMaxCorners = std::numeric_limits<int>::max();
+
+/// Takes the next line off `text`; lines end with LF, CR LF or CR.
+std::string_view takeLine(std::string_view& text) {
+    const std::size_t end = std::min(text.find_first_of("\n\r"), text.size());
+    const std::string_view line = text.substr(0, end);
+    const std::size_t eol = text.substr(end).starts_with("\r\n") ? 2 : 1;
+    text.remove_prefix(std::min(end + eol, text.size()));
+    return line;
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(kSpaces);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+}
+
+std::string_view firstWord(std::string_view text) { return text.substr(0, text.find_first_of(kSpaces)); }
+
+template <typename Number>
+std::optional<Number> parseNumber(std::string_view word) {
+    if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+    Number value{};
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+    return value;
+}
+
+/// The three kinds of things that a face's corner names.
+enum Kind { position, texCoord, normal, kindCount };
+constexpr std::array kKindNames = {"vertex", "texture coordinate", "normal"};
+
+/// What is known of one kind while the lines go by.
+struct Values {
+    std::size_t count = 0;
+    std::size_t largestIndex = 0, largestIndexLine = 0;  ///< faces may come before their vertices: compared at the end
+    std::size_t firstLineWith = 0, firstLineWithout = 0; ///< faces; 0 when there is none
+};
+
+class ObjScanner {
+public:
+    ObjScanner(const std::string& name, const Warn& warn) : name_(name), warn_(warn) {}
+    ObjScan scan(std::string_view text);
+
+private:
+    void scanLine(std::string_view line);
+    void scanNumbers(Kind kind);
+    void scanFace();
+    void scanCorner(std::string_view corner, std::array<bool, kindCount>& has);
+    std::size_t resolveIndex(Kind kind, std::string_view word);
+    void checkNoTwins();
+    void notePresence(Kind kind, std::size_t cornersWith);
+    void scanTag();
+    [[nodiscard]] std::array<std::size_t, 3> scanTagSizes(std::string_view sizes) const;
+    float scanFloat(std::string_view word) const;
+    void splitWords(std::string_view rest);
+    void keepWords(std::string_view keyword);
+    void warnOnce(std::string_view keyword);
+    void finish();
+
+    template <typename... Args>
+    [[noreturn]] void failHere(fmt::format_string<Args...> format, Args&&... args) const {
+        failAtLine(name_, line_, format, std::forward<Args>(args)...);
+    }
+
+    const std::string& name_;
+    const Warn& warn_;
+    ObjScan result_;
+    std::size_t line_ = 0;
+    std::array<Values, kindCount> values_;
+    Words words_;                           ///< of the line, without keyword and comment
+    std::vector<std::size_t> faceVertices_; ///< of the face at hand, from 0
+    std::set<std::string, std::less<>> warnedOf_;
+};
+
+ObjScan ObjScanner::scan(std::string_view text) {
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    result_.text.reserve(text.size());
+    std::string joined;
+    for (std::size_t nextLine = 1; !text.empty();) {
+        line_ = nextLine++;
+        std::string_view line = takeLine(text);
+        const bool isComment = trimmed(line).starts_with('#');
+        if (line.ends_with('\\') && !isComment) {
+            joined.clear();
+            for (; line.ends_with('\\') && !text.empty(); line = takeLine(text), ++nextLine)
+                joined.append(line.substr(0, line.size() - 1)).push_back(' ');
+            joined.append(line.substr(0, line.find_last_not_of('\\') + 1));
+            line = joined;
+        }
+        if (!isComment) scanLine(trimmed(line));
+    }
+    finish();
+    return std::move(result_);
+}
+
+void ObjScanner::scanLine(std::string_view line) {
+    if (line.empty()) return;
+    if (line.find('\0') != std::string_view::npos)
+        failHere("there is a zero byte in this line; save the file as plain UTF-8 text");
+    const std::string_view keyword = firstWord(line);
+    const std::string_view rest = trimmed(line.substr(keyword.size()));
+    if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
+        result_.text.append(keyword).append(" ").append(rest).append("\n");
+        return;
+    }
+    if (keyword == "s" || keyword == "mtllib") return;
+
+    splitWords(rest);
+    if (keyword == "t") return scanTag();
+    if (keyword == "v")
+        scanNumbers(position);
+    else if (keyword == "vt")
+        scanNumbers(texCoord);
+    else if (keyword == "vn")
+        scanNumbers(normal);
+    else if (keyword == "f")
+        scanFace();
+    else
+        return warnOnce(keyword);
+    keepWords(keyword);
+}
+
+void ObjScanner::scanNumbers(Kind kind) {
+    static constexpr std::array<std::size_t, kindCount> kFewest = {3, 1, 3};
+    static constexpr std::array<std::size_t, kindCount> kMost = {8, 3, 3}; // x y z, then w, a colour or both
+    const std::size_t fewest = kFewest[kind], most = kMost[kind];
+    if (words_.size() < fewest || words_.size() > most)
+        failHere("a {} has {} to {} numbers, this one has {}", kKindNames[kind], fewest, most, words_.size());
+    for (const std::string_view word : words_) scanFloat(word);
+    ++values_[kind].count;
+}
+
+void ObjScanner::scanFace() {
+    if (words_.size() < 3) failHere("this face has {} corners; a face needs 3 or more", words_.size());
+    faceVertices_.clear();
+    std::array<std::size_t, kindCount> cornersWith{};
+    for (const std::string_view word : words_) {
+        std::array<bool, kindCount> has{};
+        scanCorner(word, has);
+        for (int kind = 0; kind < kindCount; ++kind) cornersWith[kind] += has[kind] ? 1 : 0;
+    }
+    checkNoTwins();
+    notePresence(texCoord, cornersWith[texCoord]);
+    notePresence(normal, cornersWith[normal]);
+    ++result_.faceCount;
+    result_.cornerCount += words_.size();
+    if (result_.cornerCount > kMaxCorners) failHere("more than {} corners in all faces", kMaxCorners);
+}
+
+/// A corner is "v", "v/vt", "v//vn" or "v/vt/vn"; an empty field means that there is none.
+void ObjScanner::scanCorner(std::string_view corner, std::array<bool, kindCount>& has) {
+    std::string_view rest = corner;
+    for (int kind = 0; kind < kindCount; ++kind) {
+        const std::string_view field = rest.substr(0, rest.find('/'));
+        has[kind] = !field.empty() || kind == position;
+        if (has[kind]) {
+            const std::size_t index = resolveIndex(Kind(kind), field);
+            if (kind == position) faceVertices_.push_back(index);
+        }
+        if (field.size() == rest.size()) return;
+        rest.remove_prefix(field.size() + 1);
+    }
+    failHere("'{}' has more than three indices; a corner is vertex/texture/normal", corner);
+}
+
+/// The index from 0. Negative ones count back from the latest value; positive ones may name values still to come.
+std::size_t ObjScanner::resolveIndex(Kind kind, std::string_view word) {
+    Values& values = values_[kind];
+    const std::optional<int> index = parseNumber<int>(word);
+    if (!index) failHere("'{}' is not a {} index; write a whole number", word, kKindNames[kind]);
+    if (*index == 0) failHere("{} index 0 does not exist; a face's indices count from 1", kKindNames[kind]);
+    if (*index < 0) {
+        const std::size_t back = std::size_t(-std::int64_t(*index));
+        if (back > values.count)
+            failHere("{} index {} reaches before the first; {} are defined above this line", kKindNames[kind], *index,
+                     values.count);
+        return values.count - back;
+    }
+    if (std::size_t(*index) > values.largestIndex) {
+        values.largestIndex = std::size_t(*index);
+        values.largestIndexLine = line_;
+    }
+    return std::size_t(*index) - 1;
+}
+
+void ObjScanner::checkNoTwins() {
+    std::sort(faceVertices_.begin(), faceVertices_.end());
+    const auto twin = std::adjacent_find(faceVertices_.begin(), faceVertices_.end());
+    if (twin != faceVertices_.end())
+        failHere("this face uses vertex {} twice; each corner needs a vertex of its own", *twin + 1);
+}
+
+void ObjScanner::notePresence(Kind kind, std::size_t cornersWith) {
+    Values& values = values_[kind];
+    if (cornersWith != 0 && cornersWith != words_.size())
+        failHere("{} of this face's {} corners have a {}; give one to all or to none", cornersWith, words_.size(),
+                 kKindNames[kind]);
+    std::size_t& first = cornersWith == 0 ? values.firstLineWithout : values.firstLineWith;
+    if (first == 0) first = line_;
+    if (kind != texCoord || values.firstLineWith == 0 || values.firstLineWithout == 0) return;
+    if (cornersWith == 0)
+        failHere("this face has no texture coordinates but the face of line {} has; give them to all faces or to none",
+                 values.firstLineWith);
+    failHere("this face has texture coordinates but the face of line {} has none; give them to all faces or to none",
+             values.firstLineWithout);
+}
+
+/// `t name ints/floats/strings`, then as many words of each type.
+void ObjScanner::scanTag() {
+    if (words_.size() < 2) failHere("a tag is 't name ints/floats/strings values...'");
+    const std::array<std::size_t, 3> counts = scanTagSizes(words_[1]);
+    const std::size_t expected = counts[0] + counts[1] + counts[2];
+    const std::span<const std::string_view> values = std::span(words_).subspan(2);
+    if (values.size() != expected)
+        failHere("tag '{}' announces {} values, {} follow", words_[0], expected, values.size());
+
+    ObjTag tag{.line = line_, .name = std::string(words_[0]), .ints = {}, .floats = {}, .strings = {}};
+    for (const std::string_view word : values.first(counts[0])) {
+        const std::optional<int> value = parseNumber<int>(word);
+        if (!value) failHere("'{}' is not a whole number", word);
+        tag.ints.push_back(*value);
+    }
+    for (const std::string_view word : values.subspan(counts[0], counts[1])) tag.floats.push_back(scanFloat(word));
+    for (const std::string_view word : values.last(counts[2])) tag.strings.emplace_back(word);
+    result_.tags.push_back(std::move(tag));
+}
+
+std::array<std::size_t, 3> ObjScanner::scanTagSizes(std::string_view sizes) const {
+    std::array<std::size_t, 3> counts{};
+    std::string_view rest = sizes;
+    for (int type = 0; type < 3; ++type) {
+        const std::string_view field = rest.substr(0, rest.find('/'));
+        const std::optional<std::uint32_t> count = parseNumber<std::uint32_t>(field);
+        const bool isLast = field.size() == rest.size();
+        if (!count || isLast != (type == 2))
+            failHere("'{}' are not the sizes of a tag; write ints/floats/strings, such as 2/1/0", sizes);
+        counts[type] = *count;
+        rest.remove_prefix(isLast ? field.size() : field.size() + 1);
+    }
+    return counts;
+}
+
+/// A number that is finite as a float.
+float ObjScanner::scanFloat(std::string_view word) const {
+    const std::optional<double> value = parseNumber<double>(word);
+    if (!value || !(std::abs(*value) <= std::numeric_limits<float>::max()))
+        failHere("'{}' is not a finite number; write digits with a decimal point", word);
+    return float(*value);
+}
+
+void ObjScanner::splitWords(std::string_view rest) {
+    words_.clear();
+    while (!rest.empty() && rest[0] != '#') {
+        words_.push_back(firstWord(rest));
+        rest = trimmed(rest.substr(words_.back().size()));
+    }
+}
+
+void ObjScanner::keepWords(std::string_view keyword) {
+    result_.text.append(keyword);
+    for (const std::string_view word : words_) result_.text.append(" ").append(word);
+    result_.text.push_back('\n');
+}
+
+void ObjScanner::warnOnce(std::string_view keyword) {
+    if (warnedOf_.emplace(keyword).second) warn_(fmt::format("{}:{}: lines '{}' are not read", name_, line_, keyword));
+}
+
+void ObjScanner::finish() {
+    for (int kind = 0; kind < kindCount; ++kind) {
+        const Values& values = values_[kind];
+        if (values.largestIndex > values.count)
+            failAtLine(name_, values.largestIndexLine, "{} index {} does not exist; there are {}", kKindNames[kind],
+                       values.largestIndex, values.count);
+    }
+    const Values& normals = values_[normal];
+    if (normals.firstLineWith != 0 && normals.firstLineWithout != 0)
+        warn_(fmt::format("{}:{}: this face has no normals but others have; all normals are dropped", name_,
+                          normals.firstLineWithout));
+    result_.vertexCount = values_[position].count;
+    result_.texCoordCount = values_[texCoord].count;
+    result_.normalCount = normals.count;
+    result_.hasTexCoords = values_[texCoord].firstLineWith != 0;
+    result_.hasNormals = normals.firstLineWith != 0 && normals.firstLineWithout == 0;
+}
+
+} // namespace
+
+ObjScan scanObj(std::string_view text, const std::string& name, const Warn& warn) {
+    return ObjScanner(name, warn).scan(text);
+}
+
+} // namespace relief
