@@ -1,1 +1,0 @@
-#include "displacement/displacement.h"
