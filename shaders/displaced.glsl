@@ -1,0 +1,160 @@
+// Heights, and points of the displaced surface by name: (face,u,v) inside a face, (edge, k, N) and corners at their owner.
+#ifndef RELIEF_DISPLACED_GLSL
+#define RELIEF_DISPLACED_GLSL
+
+#include "limit.glsl"
+#include "places.glsl"
+#include "shared/displacement.h"
+
+layout(constant_id = 2) const bool kHasHeight = false;
+layout(constant_id = 3) const uint kNormal = kNormalFull;
+layout(constant_id = 4) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
+
+layout(set = 0, binding = 0) uniform sampler2D heightMap;
+
+// --- heights --------------------------------------------------------------------------------------------------------
+
+struct HeightSample {
+    float h;
+    vec2 gradient;  // (h_s, h_t)
+};
+
+// Texels are fetched and weighed here, not by the sampler, whose fractions are 8 bits on many devices: stairs in h_s.
+float texel(ivec2 at) {
+    ivec2 size = scene.mapSize;
+    at = scene.mapRepeats != 0u ? at - size * ivec2(floor(vec2(at) / vec2(size))) : clamp(at, ivec2(0), size - 1);
+    return texelFetch(heightMap, at, 0).r;
+}
+
+// h bilinear; h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569), h_t likewise: twelve texels, of
+// which the four around the point serve both. t points up, rows go down.
+HeightSample sampleHeight(vec2 st) {
+    precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(scene.mapSize) - 0.5;
+    vec2 whole = floor(x);
+    vec2 f = x - whole;
+    ivec2 at = ivec2(whole);
+    float below[4], above[4]; // rows at and at + 1, columns -1..2
+    for (int i = 0; i < 4; ++i) {
+        below[i] = texel(at + ivec2(i - 1, 0));
+        above[i] = texel(at + ivec2(i - 1, 1));
+    }
+    float outerLow0 = texel(at + ivec2(0, -1)), outerLow1 = texel(at + ivec2(1, -1));
+    float outerHigh0 = texel(at + ivec2(0, 2)), outerHigh1 = texel(at + ivec2(1, 2));
+
+    // Rows: value at x in each of the four rows; and the difference across two texels in the middle two.
+    precise float rowLow = mix(outerLow0, outerLow1, f.x), row0 = mix(below[1], below[2], f.x);
+    precise float row1 = mix(above[1], above[2], f.x), rowHigh = mix(outerHigh0, outerHigh1, f.x);
+    precise float across0 = mix(below[2], below[3], f.x) - mix(below[0], below[1], f.x);
+    precise float across1 = mix(above[2], above[3], f.x) - mix(above[0], above[1], f.x);
+    precise float down = mix(row1, rowHigh, f.y) - mix(rowLow, row0, f.y);
+
+    HeightSample s;
+    s.h = scene.heightScale * (mix(row0, row1, f.y) - scene.heightMid);
+    vec2 perUnit = 0.5 * scene.heightScale * vec2(scene.mapSize);
+    s.gradient = vec2(mix(across0, across1, f.y), -down) * perUnit;
+    return s;
+}
+
+// --- normals --------------------------------------------------------------------------------------------------------
+
+const float kParallel = 1e-6; // sine of the angle under which two tangents count as parallel
+
+bool spansPlane(vec3 a, vec3 b) {
+    vec3 c = cross(a, b);
+    return dot(c, c) > kParallel * kParallel * dot(a, a) * dot(b, b);
+}
+
+// Where p_u and p_v are parallel or vanish (coincident corners, cusps, smooth corners) they are taken a little towards
+// the face's centre by their own derivatives: never NaN.
+void mendTangents(inout LimitFrame f, vec2 uv) {
+    if (spansPlane(f.pu, f.pv)) return;
+#ifdef RELIEF_TRIANGLES
+    vec2 inwards = (vec2(1.0 / 3.0) - uv) / 16.0;
+#else
+    vec2 inwards = (vec2(0.5) - uv) / 16.0;
+#endif
+    f.pu += f.puu * inwards.x + f.puv * inwards.y;
+    f.pv += f.puv * inwards.x + f.pvv * inwards.y;
+    if (spansPlane(f.pu, f.pv)) return;
+    f.pu = vec3(1, 0, 0);
+    f.pv = vec3(0, 0, -1);
+}
+
+// The normal asked for by --normal, not yet unit.
+vec3 displacedNormal(LimitFrame f, vec3 n, float area, HeightSample height, mat2 jacobian) {
+    if (kNormal == kNormalLimit || !kHasHeight) return n;
+    vec2 dh = heightGradient(height.gradient, jacobian);
+    if (kNormal == kNormalFirstOrder) return firstOrderNormal(n, f.pu, f.pv, dh);
+    vec3 nu = normalDerivative(n, area, f.pu, f.pv, f.puu, f.puv);
+    vec3 nv = normalDerivative(n, area, f.pu, f.pv, f.puv, f.pvv);
+    return cross(displacedTangent(f.pu, n, nu, height.h, dh.x), displacedTangent(f.pv, n, nv, height.h, dh.y));
+}
+
+// --- the displaced surface ------------------------------------------------------------------------------------------
+
+struct DisplacedSample {
+    vec3 p;          // on the limit surface
+    vec3 q;          // displaced
+    vec3 normal;     // as --normal asks, unit; at a sharp edge the drawn face's own
+    vec2 st;         // the drawn face's own
+    float h;
+    LimitFrame frame;
+    vec3 n;          // unit limit normal of the frame
+    vec2 gradient;   // (h_s, h_t)
+    mat2 jacobian;   // of the texture coordinates
+};
+
+TexFrame texCoordsAt(Leaf leaf, vec2 uv) {
+    if (kHasTexCoords) return textureInLeaf(leaf);
+    return TexFrame(uv, mat2(1.0));
+}
+
+// Walks the faces that meet at the place, in the edge's fixed order: one of them where the surface is smooth, all where
+// the normal has to be agreed on. The first is the owner: it gives the point and the height.
+DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
+    DisplacedSample s;
+    precise vec3 direction = vec3(0);
+    vec3 ownersNormal = vec3(0);
+    uint count = max(place.touchCount, 1u);
+    bool isOwn = false;
+    for (uint i = 0u; i < count; ++i) {
+        Touch touch = place.owner;
+        if (place.touchCount > 0u) touch = scene.touches.at[place.firstTouch + i];
+        vec2 uv = place.isInside ? place.uv : touchPoint(touch, place.t);
+        Leaf leaf = findLeaf(touch.face, uv);
+        LimitFrame frame = limitInLeaf(leaf);
+        mendTangents(frame, uv);
+        vec3 areaNormal = cross(frame.pu, frame.pv);
+        float area = length(areaNormal);
+        precise vec3 n = areaNormal / area;
+        direction += n;
+
+        bool isTouchOfFace = touch.face == face && !isOwn;
+        if (i == 0u || isTouchOfFace) {
+            isOwn = touch.face == face;
+            TexFrame tex = TexFrame(vec2(0), mat2(1));
+            if (kHasHeight || kWantsTexCoords) tex = texCoordsAt(leaf, uv);
+            HeightSample height = HeightSample(0.0, vec2(0));
+            if (kHasHeight) height = sampleHeight(tex.st);
+            if (i == 0u) {
+                s.p = frame.p;
+                s.h = height.h;
+                ownersNormal = n;
+            }
+            s.normal = displacedNormal(frame, n, area, height, tex.jacobian);
+            s.st = tex.st;
+            s.frame = frame;
+            s.n = n;
+            s.gradient = height.gradient;
+            s.jacobian = tex.jacobian;
+        }
+    }
+    // Normals that cancel (a fin, faces of opposite winding) agree on the owner's.
+    if (count > 1u) direction = dot(direction, direction) > 1e-6 ? normalize(direction) : ownersNormal;
+    precise vec3 q = displacedPoint(s.p, direction, s.h);
+    s.q = q;
+    s.normal = dot(s.normal, s.normal) > 0.0 ? normalize(s.normal) : s.n;
+    if (kWantsTexCoords && kHasTexCoords && !isOwn) s.st = textureInLeaf(findLeaf(face, faceUV)).st;
+    return s;
+}
+#endif

@@ -1,0 +1,26 @@
+// The end of every stage that makes vertices of the displaced surface.
+#define RELIEF_VARYING out
+#include "varyings.glsl"
+
+vec4 project(vec3 position) {
+    if (drawsShadow != 0u) return scene.worldToShadow * vec4(position, 1.0);
+    return scene.worldToClip * vec4(position, 1.0);
+}
+
+uint largestSideRate(uint face) {
+    uint rate = 0u;
+    for (uint side = 0u; side < kSideCount; ++side) rate = max(rate, sideRate(scene.faces.at[face].sides[side]));
+    return rate;
+}
+
+void emitVertex(uint face, vec2 uv, Place place) {
+    DisplacedSample s = displaced(face, uv, place);
+    precise vec4 clip = project(s.q);
+    gl_Position = clip;
+    vPosition = s.q;
+    vNormal = s.normal;
+    vTexCoord = s.st;
+    vHeight = s.h;
+    vFace = scene.faces.at[face].cageFace;
+    vRate = largestSideRate(face);
+}

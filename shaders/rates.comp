@@ -1,0 +1,36 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "displaced.glsl"
+
+// One rate an edge, from the edge alone: both faces read the same number.
+layout(local_size_x = 64) in;
+
+// Length in pixels of the displaced edge seen face-on from its distance: direction does not shorten it, so silhouettes
+// keep their detail.
+float pixelLength(uint edge) {
+    const uint pieces = 4u;
+    float pixels = 0.0;
+    vec3 last = vec3(0);
+    for (uint k = 0u; k <= pieces; ++k) {
+        Place place = edgePlace(edge, k, pieces);
+        vec3 q = displaced(place.owner.face, vec2(0), place).q;
+        float distance = max(length(0.5 * (q + last) - scene.eye), scene.nearDistance);
+        if (k > 0u) pixels += length(q - last) * scene.pixelsAtUnitDistance / distance;
+        last = q;
+    }
+    return pixels;
+}
+
+void main() {
+    uint edge = gl_GlobalInvocationID.x;
+    if (edge >= scene.edgeCount) return;
+    // The halves of an edge beside an n-gon share the larger length, so that a quad's side divides evenly.
+    uint partner = scene.edges.at[edge].partner;
+    float pixels = 0.0;
+    for (uint i = 0u; i < (partner == edge ? 1u : 2u); ++i)
+        pixels = max(pixels, pixelLength(i == 0u ? edge : partner));
+    float rate = ceil(pixels / scene.edgePixels);
+    uint limit = partner == edge ? scene.maxRate : max(scene.maxRate / 2u, 1u);
+    // NaN compares false: it becomes 1, never a missing face.
+    scene.edgeRates.at[edge] = rate > 1.0 ? uint(min(rate, float(limit))) : 1u;
+}

@@ -1,0 +1,17 @@
+// The verbs of the command line. Each adds its options to a CLI11 subcommand and returns what to run.
+#pragma once
+
+#include <functional>
+
+#include "app/options.h"
+
+namespace relief::app {
+
+/// Runs the parsed command; returns the exit code.
+using Run = std::function<int()>;
+
+Run addRender(CLI::App& app);
+Run addSample(CLI::App& app);
+Run addInfo(CLI::App& app);
+
+} // namespace relief::app

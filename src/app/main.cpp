@@ -1,0 +1,80 @@
+// relief: displaced subdivision surfaces on any Vulkan 1.3 device.
+#include <iostream>
+#include <new>
+
+#include "app/commands.h"
+
+namespace {
+
+using namespace relief;
+
+struct Command {
+    const char* name;
+    const char* description;
+    app::Run (*add)(CLI::App&);
+};
+
+constexpr Command kCommands[] = {
+    {"render", "one picture of a displaced cage, or of a dense mesh", app::addRender},
+    {"sample", "the device's own frames at given points of the surface", app::addSample},
+    {"info", "what a file holds; what the devices can do", app::addInfo},
+};
+
+int fault(Failure failure, const std::string& line) {
+    std::cerr << "relief: " << line << '\n';
+    return int(failure);
+}
+
+/// The word that CLI11 stumbled over, with the nearest option or verb of the command.
+std::string suggestion(const CLI::App& top, int argc, char** argv) {
+    const CLI::App* command = top.get_subcommands().empty() ? &top : top.get_subcommands().front();
+    std::vector<std::string> known;
+    for (const CLI::Option* option : command->get_options())
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    if (command == &top)
+        for (const Command& c : kCommands) known.emplace_back(c.name);
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
+        const bool isCandidate = command == &top ? i == 1 : word.starts_with("--");
+        if (!isCandidate || std::ranges::find(known, word) != known.end()) continue;
+        const std::string near = nearestWord(word, known);
+        if (!near.empty()) return fmt::format("{} is not known here; did you mean {}?", word, near);
+    }
+    return "";
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Renders, animates, bakes and measures displaced subdivision surfaces.", "relief");
+    app.set_version_flag("--version", "relief 0.1.0");
+    app.require_subcommand(1);
+    app.footer("exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 reading or writing failed,\n"
+               "            5 no device or out of memory, 6 a check failed, 130 interrupted\n"
+               "relief VERB --help explains each verb.");
+    app::Run chosen;
+    for (const Command& command : kCommands) {
+        CLI::App* verb = app.add_subcommand(command.name, command.description);
+        verb->callback([&chosen, action = command.add(*verb)] { chosen = action; });
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);
+        const std::string hint = suggestion(app, argc, argv);
+        return fault(Failure::usage, hint.empty() ? error.what() : hint);
+    }
+    return chosen();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const Error& error) {
+        return fault(error.failure, error.what());
+    } catch (const std::bad_alloc&) {
+        return fault(Failure::device, "out of memory");
+    } catch (const std::exception& error) {
+        return fault(Failure::internal, error.what());
+    }
+}

@@ -1,0 +1,66 @@
+// The options that verbs share, with the same words in each, and what they turn into.
+#pragma once
+
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "frame/frame.h"
+
+namespace relief::app {
+
+struct Output {
+    bool isJson = false, isQuiet = false, isVerbose = false;
+    ShowProgress progress = ShowProgress::automatic;
+
+    [[nodiscard]] Warn warn() const;        ///< silent with -q
+};
+
+struct SurfaceArgs {
+    std::string cage;
+    std::string scheme;                     ///< "": catmark, or none for a mesh of triangles
+    int isolation = 6;
+    std::string height;
+    std::optional<double> scale, mid;
+    int channel = 0;
+    std::string wrap = "repeat";
+};
+
+struct PictureArgs {
+    std::string path;                       ///< "": tessellation where the device has it
+    std::optional<int> rate;
+    double edgePixels = 2;
+    std::string normal = "full", show = "shaded";
+    std::vector<int> size{1024, 1024};
+    CameraOptions camera;
+    std::vector<double> lookAt;
+    double distance = 0;
+    std::string albedo, environment;
+    std::vector<double> light, color;
+    double roughness = 0.45;
+    bool hasNoShadows = false;
+    std::vector<double> background;
+    bool isTransparent = false;
+    std::string device;
+};
+
+void addOutput(CLI::App& app, Output& output);
+void addSurface(CLI::App& app, SurfaceArgs& args);
+void addPicture(CLI::App& app, PictureArgs& args);
+
+/// A cage with everything made of it, in memory.
+struct Loaded {
+    Cage cage;
+    std::optional<DenseMesh> dense;         ///< instead of a surface, where no scheme applies
+    Surface surface;
+    std::optional<HeightMap> height;
+    SurfaceOptions options;
+    double loadSeconds = 0, surfaceSeconds = 0;
+
+    [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
+};
+Loaded load(const SurfaceArgs& args, const Output& output);
+
+NormalKind normalKind(const std::string& word);
+
+} // namespace relief::app

@@ -1,0 +1,140 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+
+namespace relief::app {
+namespace {
+
+struct RenderArgs {
+    SurfaceArgs surface;
+    PictureArgs picture;
+    Output output;
+    std::string target;
+};
+
+Show showOf(const std::string& word) {
+    static const std::map<std::string, Show> words{{"shaded", Show::shaded}, {"normal", Show::normal},
+                                                   {"height", Show::height}, {"rate", Show::rate},
+                                                   {"faces", Show::faces}, {"wireframe", Show::wireframe}};
+    return words.at(word);
+}
+
+Path pathOf(const std::string& word, const Device& device) {
+    if (word.empty()) return device.traits().hasTessellation ? Path::tessellation : Path::grid;
+    return word == "grid" ? Path::grid : Path::tessellation;
+}
+
+/// Points for framing: a coarse reference is enough.
+std::vector<dvec3> outlineOf(const Loaded& loaded) {
+    if (loaded.dense) return {loaded.dense->positions.begin(), loaded.dense->positions.end()};
+    const ReferenceSurface coarse(loaded.cage, {.scheme = loaded.options.scheme, .isolation = 2});
+    return outline(coarse, loaded.heightMap());
+}
+
+RenderOptions renderOptions(const RenderArgs& args, const Device& device, const std::vector<dvec3>& points) {
+    const PictureArgs& picture = args.picture;
+    CameraOptions camera = picture.camera;
+    if (picture.distance > 0) camera.distance = picture.distance;
+    if (!picture.lookAt.empty()) camera.lookAt = dvec3(picture.lookAt[0], picture.lookAt[1], picture.lookAt[2]);
+
+    RenderOptions options;
+    options.path = pathOf(picture.path, device);
+    options.rate = picture.rate;
+    options.edgePixels = picture.edgePixels;
+    options.normal = normalKind(picture.normal);
+    options.show = showOf(picture.show);
+    options.camera = frameCamera(points, camera, double(picture.size[0]) / picture.size[1]);
+    for (const dvec3& p : points) options.bounds.add(p);
+    options.lighting.keyAzimuth = picture.light.empty() ? camera.azimuth - 55 : picture.light[0];
+    options.lighting.keyElevation = picture.light.empty() ? 50 : picture.light[1];
+    options.lighting.castsShadows = !picture.hasNoShadows;
+    if (!picture.albedo.empty()) options.material.albedo = vec3(1);
+    if (!picture.color.empty()) options.material.albedo = vec3(picture.color[0], picture.color[1], picture.color[2]);
+    options.material.roughness = float(picture.roughness);
+    return options;
+}
+
+Finish finishOf(const PictureArgs& args) {
+    Finish finish;
+    if (args.isTransparent) finish.background = Background::transparent;
+    if (!args.background.empty()) {
+        finish.background = Background::color;
+        finish.color = vec3(args.background[0], args.background[1], args.background[2]);
+    }
+    return finish;
+}
+
+void report(const RenderArgs& args, const Loaded& loaded, const Device& device, const Model& model, const FrameStats& stats) {
+    const std::uint64_t mapBytes = loaded.height ? loaded.height->byteCount() : 0;
+    if (args.output.isJson) {
+        std::cout << nlohmann::json{{"picture", args.target}, {"device", device.traits().name},
+                                    {"triangles", stats.triangleCount}, {"faces", stats.faceCount},
+                                    {"draws", stats.drawCount}, {"max_rate", stats.maxRate},
+                                    {"cage_bytes", loaded.cage.byteCount()}, {"map_bytes", mapBytes},
+                                    {"device_bytes", model.byteCount()}, {"load_ms", 1e3 * loaded.loadSeconds},
+                                    {"surface_ms", 1e3 * loaded.surfaceSeconds}, {"table_ms", 1e3 * loaded.surface.tableSeconds},
+                                    {"rate_ms", stats.rateMs}, {"shadow_ms", stats.shadowMs}, {"color_ms", stats.colorMs},
+                                    {"frame_ms", stats.wallMs}}.dump(2) << '\n';
+    } else if (!args.output.isQuiet) {
+        std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
+                                 device.traits().name);
+        if (args.output.isVerbose)
+            std::cerr << fmt::format("load {:.0f} ms, surface {:.0f} ms (OpenSubdiv {:.0f}), rates {:.1f} ms, shadow {:.1f} ms, "
+                                     "color {:.1f} ms, {} faces in {} draws, rate up to {}, {} on the device\n",
+                                     1e3 * loaded.loadSeconds, 1e3 * loaded.surfaceSeconds, 1e3 * loaded.surface.tableSeconds,
+                                     stats.rateMs, stats.shadowMs, stats.colorMs, stats.faceCount, stats.drawCount,
+                                     stats.maxRate, humanBytes(model.byteCount()));
+    }
+}
+
+int render(const RenderArgs& args) {
+    if (!args.target.ends_with(".png") && !args.target.ends_with(".exr"))
+        fail(Failure::usage, "{}: pictures are written as .png or .exr", args.target);
+    Progress progress("rendering", 5, args.output.progress);
+    const Loaded loaded = load(args.surface, args.output);
+    progress.advance();
+    std::optional<Image> albedo;
+    if (!args.picture.albedo.empty()) albedo = readImage(args.picture.albedo);
+    if (albedo && albedo->channels < 3)
+        fail(Failure::input, "{}: an albedo map has 3 channels, this one has {}", args.picture.albedo, albedo->channels);
+    std::optional<Environment> environment;
+    if (!args.picture.environment.empty()) environment = loadEnvironment(args.picture.environment);
+    const std::vector<dvec3> points = outlineOf(loaded);
+    progress.advance();
+
+    Device device({.name = args.picture.device});
+    RenderOptions options = renderOptions(args, device, points);
+    if (environment) options.lighting.environment = &*environment;
+    const Model model(device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap(),
+                               .dense = loaded.dense ? &*loaded.dense : nullptr, .albedo = albedo ? &*albedo : nullptr});
+    progress.advance();
+    Renderer renderer(device, {.width = args.picture.size[0], .height = args.picture.size[1]});
+    const Picture picture = renderer.render(model, options);
+    progress.advance();
+    writePicture(args.target, picture, finishOf(args.picture));
+    progress.advance();
+    report(args, loaded, device, model, picture.stats);
+    if (!device.validationMessages().empty())
+        fail(Failure::internal, "the Vulkan validation layer has {} complaints", device.validationMessages().size());
+    return 0;
+}
+
+} // namespace
+
+Run addRender(CLI::App& app) {
+    auto args = std::make_shared<RenderArgs>();
+    addSurface(app, args->surface);
+    app.add_option("-o,--output", args->target, "picture to write: .png or .exr")->required()->option_text("PICTURE");
+    addPicture(app, args->picture);
+    addOutput(app, args->output);
+    app.footer("examples:\n"
+               "  relief render meshes/torus.obj --height golf.exr -o golf.png\n"
+               "  relief render cage.obj --height wrinkles.png --scale 0.05 --albedo skin.png --edge-pixels 1 -o face.png\n"
+               "  relief render cage.obj --show wireframe --rate 8 --size 800,600 --azimuth 45 -o wire.png\n"
+               "  relief render dense.obj -o dense.exr");
+    return [args] { return render(*args); };
+}
+
+} // namespace relief::app

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+
+#include "frame/frame.h"
+
+namespace relief {
+namespace {
+
+/// RGBA bytes of an albedo picture and of its mips, largest first; averages run on linear light.
+struct AlbedoMips {
+    std::vector<std::uint8_t> bytes;
+    std::uint32_t levels = 0;
+};
+
+double linearOf(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
+double srgbOf(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+
+std::uint8_t byteOf(double value) { return std::uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0))); }
+
+struct AlbedoTables {
+    double linear[256];
+    std::uint8_t srgb[4096];
+    AlbedoTables() {
+        for (int i = 0; i < 256; ++i) linear[i] = linearOf(i / 255.0);
+        for (int i = 0; i < 4096; ++i) srgb[i] = byteOf(srgbOf(i / 4095.0));
+    }
+};
+
+AlbedoMips albedoMips(const Image& image) {
+    static const AlbedoTables tables;
+    AlbedoMips mips;
+    auto width = std::size_t(image.width), height = std::size_t(image.height);
+    mips.bytes.reserve(width * height * 4 * 4 / 3 + 64);
+    for (std::size_t i = 0; i < width * height; ++i)
+        for (std::size_t c = 0; c < 4; ++c)
+            mips.bytes.push_back(c < 3 ? byteOf(image.texels[i * std::size_t(image.channels) + c]) : 255);
+    std::size_t from = 0;
+    for (mips.levels = 1; width > 1 || height > 1; ++mips.levels) {
+        const std::size_t w = std::max<std::size_t>(1, width / 2), h = std::max<std::size_t>(1, height / 2);
+        const std::size_t to = mips.bytes.size();
+        for (std::size_t y = 0; y < h; ++y)
+            for (std::size_t x = 0; x < w; ++x)
+                for (std::size_t c = 0; c < 4; ++c) {
+                    double sum = 0;
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        const std::size_t sx = std::min(2 * x + k % 2, width - 1), sy = std::min(2 * y + k / 2, height - 1);
+                        sum += tables.linear[mips.bytes[from + (sy * width + sx) * 4 + c]];
+                    }
+                    mips.bytes.push_back(tables.srgb[std::size_t(sum / 4 * 4095 + 0.5)]);
+                }
+        from = to, width = w, height = h;
+    }
+    return mips;
+}
+
+Texture whitePixel(Device& device, VkFormat format) {
+    const std::byte one[4] = {std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}};
+    return uploadTexture(device, {.name = "empty", .format = format}, one, 4);
+}
+
+} // namespace
+
+Model::Model(Device& device, const ModelDesc& desc) {
+    const std::uint64_t before = device.allocatedBytes();
+    if (desc.dense != nullptr) uploadDense(device, *desc.dense);
+    else uploadSurface(device, desc);
+    uploadMaps(device, desc);
+    byteCount_ = device.allocatedBytes() - before;
+}
+
+template <typename T>
+void Model::keep(Device& device, const char* name, std::span<const T> data, std::uint64_t Scene::*address) {
+    buffers_.push_back(uploadArray(device, name, data));
+    addresses_.emplace_back(address, buffers_.back().address);
+}
+
+void Model::uploadSurface(Device& device, const ModelDesc& desc) {
+    const Surface& s = *desc.surface;
+    const std::vector<vec3> points = refinePoints(s, desc.cagePositions);
+    keep<Face>(device, "faces", s.faces, &Scene::faces);
+    keep<std::uint32_t>(device, "tree", s.tree, &Scene::tree);
+    keep<Patch>(device, "patches", s.patches, &Scene::patches);
+    keep<std::uint32_t>(device, "patch points", s.patchPoints, &Scene::patchPoints);
+    keep<vec3>(device, "points", points, &Scene::points);
+    keep<std::uint32_t>(device, "texture patch points", s.texPatchPoints, &Scene::texPatchPoints);
+    keep<vec2>(device, "texture points", s.texPoints, &Scene::texPoints);
+    keep<Edge>(device, "edges", s.edges, &Scene::edges);
+    keep<Corner>(device, "corners", s.corners, &Scene::corners);
+    keep<Touch>(device, "touches", s.touches, &Scene::touches);
+    faces_ = s.faces;
+    sideCount_ = s.sideCount;
+    hasTexCoords_ = s.hasTexCoords();
+    edgeIsHalf_.assign(s.edges.size(), false);
+    for (std::uint32_t e = 0; e < s.edges.size(); ++e) edgeIsHalf_[e] = s.edges[e].partner != e;
+    // The sides of an n-gon's corner quads that meet at its centre are as long as the half edges around it.
+    for (const Face& face : s.faces) {
+        const std::uint32_t first = face.sides[0];
+        if (sideCount_ == 4 && (first & kSideSplit) == 0 && s.edges[first & kSideEdgeMask].partner != (first & kSideEdgeMask))
+            edgeIsHalf_[face.sides[1] & kSideEdgeMask] = edgeIsHalf_[face.sides[2] & kSideEdgeMask] = true;
+    }
+}
+
+void Model::uploadDense(Device& device, const DenseMesh& mesh) {
+    keep<vec3>(device, "mesh positions", mesh.positions, &Scene::meshPositions);
+    keep<vec3>(device, "mesh normals", mesh.normals, &Scene::meshNormals);
+    keep<vec2>(device, "mesh texture coordinates", mesh.texCoords, &Scene::meshTexCoords);
+    indices_ = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    indexCount_ = std::uint32_t(mesh.indices.size());
+    hasTexCoords_ = !mesh.texCoords.empty();
+    isDense_ = true;
+}
+
+void Model::uploadMaps(Device& device, const ModelDesc& desc) {
+    if (desc.height != nullptr) {
+        const HeightMap& map = *desc.height;
+        heightMap_ = uploadTexture(device, {.name = "height map", .width = std::uint32_t(map.width),
+                                            .height = std::uint32_t(map.height), .format = VK_FORMAT_R32_SFLOAT},
+                                   std::as_bytes(std::span(map.texels)), 4);
+        mapSize_ = {map.width, map.height};
+        heightMid_ = float(map.mid), heightScale_ = float(map.scale), heightReach_ = float(map.reach());
+        wrap_ = map.wrap;
+    } else {
+        heightMap_ = whitePixel(device, VK_FORMAT_R32_SFLOAT);
+    }
+    if (desc.albedo != nullptr) {
+        const AlbedoMips mips = albedoMips(*desc.albedo);
+        albedoMap_ = uploadTexture(device, {.name = "albedo map", .width = std::uint32_t(desc.albedo->width),
+                                            .height = std::uint32_t(desc.albedo->height), .mipCount = mips.levels,
+                                            .format = VK_FORMAT_R8G8B8A8_SRGB},
+                                   std::as_bytes(std::span(mips.bytes)), 4);
+        hasAlbedo_ = true;
+    } else {
+        albedoMap_ = whitePixel(device, VK_FORMAT_R8G8B8A8_SRGB);
+    }
+}
+
+void Model::describe(Scene& scene) const {
+    for (const auto& [field, address] : addresses_) scene.*field = address;
+    scene.mapSize = mapSize_;
+    scene.heightMid = heightMid_;
+    scene.heightScale = heightScale_;
+    scene.heightReach = heightReach_;
+    scene.mapRepeats = wrap_ == Wrap::repeat ? 1 : 0;
+    scene.edgeCount = std::uint32_t(edgeIsHalf_.size());
+}
+
+std::vector<std::uint32_t> Model::uniformRates(std::uint32_t rate) const {
+    std::vector<std::uint32_t> rates(edgeIsHalf_.size());
+    for (std::size_t e = 0; e < rates.size(); ++e) rates[e] = edgeIsHalf_[e] ? (rate + 1) / 2 : rate;
+    return rates;
+}
+
+} // namespace relief

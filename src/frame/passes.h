@@ -1,0 +1,39 @@
+// What the renderer and the point sampler share: constants of the shaders, push constants, sampled textures.
+#pragma once
+
+#include "frame/frame.h"
+#include "frame/shaders.h"
+
+namespace relief {
+
+struct PushConstants {
+    std::uint64_t scene = 0;
+    std::uint32_t passNumber = 0;
+    std::uint32_t drawsShadow = 0;
+};
+
+constexpr std::uint32_t kTextureCount = 4; ///< height, albedo, environment, shadow
+constexpr PipelineLayoutDesc kPassLayout{kTextureCount, sizeof(PushConstants)};
+
+/// Specialization constants 0..6 in the order of the shaders' constant_id.
+struct ShaderConstants {
+    bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
+    NormalKind normal = NormalKind::full;
+    bool wantsTexCoords = false;
+    std::uint32_t show = kShowShaded;
+    bool hasAlbedoMap = false;
+
+    [[nodiscard]] std::vector<std::uint32_t> values() const {
+        return {isGenericBasis, hasTexCoords, hasHeight, std::uint32_t(normal), wantsTexCoords, show, hasAlbedoMap};
+    }
+};
+
+inline void pushConstants(VkCommandBuffer commands, const Pipeline& pipeline, const PushConstants& constants) {
+    push(commands, pipeline, std::as_bytes(std::span(&constants, 1)));
+}
+
+/// A device buffer that holds one Scene; written inside a command buffer.
+Buffer makeSceneBuffer(Device& device);
+void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene);
+
+} // namespace relief

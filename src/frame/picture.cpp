@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <cmath>
+
+#include "frame/frame.h"
+
+namespace relief {
+namespace {
+
+/// Filmic curve after Hable ("Uncharted 2", GDC 2010) as fitted by Narkowicz for ACES (2015), on each channel.
+float toneMapped(float x) {
+    const float y = 0.8f * x;
+    return std::clamp(y * (2.51f * y + 0.03f) / (y * (2.43f * y + 0.59f) + 0.14f), 0.0f, 1.0f);
+}
+
+float srgbOf(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+
+/// A calm gradient, lighter behind the object: sRGB 0..1.
+vec3 studioBackground(double x, double y, double aspect) {
+    const double dx = (x - 0.5) * aspect, dy = y - 0.56;
+    const double glow = std::exp(-2.2 * (dx * dx + dy * dy));
+    const double fade = glm::mix(0.86, 0.70, y);
+    return vec3(glm::mix(dvec3(0.80, 0.815, 0.83) * fade, dvec3(0.93, 0.935, 0.94), 0.85 * glow));
+}
+
+Image displayed(const Picture& picture, const Finish& finish) {
+    const Image& from = picture.image;
+    const bool isOpaque = finish.background != Background::transparent;
+    Image to{from.width, from.height, isOpaque ? 3 : 4, {}};
+    to.texels.resize(std::size_t(to.width) * to.height * to.channels);
+    const double aspect = double(from.width) / from.height;
+    for (int y = 0; y < to.height; ++y)
+        for (int x = 0; x < to.width; ++x) {
+            const float* in = from.at(x, y);
+            float* out = to.at(x, y);
+            const float alpha = std::clamp(in[3], 0.0f, 1.0f);
+            vec3 color(0);
+            for (int c = 0; alpha > 0 && c < 3; ++c) {
+                const float value = in[c] / alpha;
+                color[c] = picture.isDisplayReferred ? std::clamp(value, 0.0f, 1.0f) : srgbOf(toneMapped(value));
+            }
+            if (isOpaque) {
+                const vec3 behind = finish.background == Background::color
+                                        ? finish.color
+                                        : studioBackground((x + 0.5) / to.width, (y + 0.5) / to.height, aspect);
+                color = glm::mix(behind, color, alpha);
+                // Gradients of 8 bits show their steps; a little ordered noise hides them.
+                const auto noise = float(std::fmod(52.9829189 * std::fmod(0.06711056 * x + 0.00583715 * y, 1.0), 1.0) - 0.5);
+                if (alpha == 0 && finish.background == Background::studio) color += noise / 255.0f;
+            } else {
+                out[3] = alpha;
+            }
+            for (int c = 0; c < 3; ++c) out[c] = color[c];
+        }
+    return to;
+}
+
+} // namespace
+
+void writePicture(const std::string& path, const Picture& picture, const Finish& finish) {
+    if (path.ends_with(".exr")) writeImage(path, picture.image, SampleType::half);
+    else if (path.ends_with(".png")) writeImage(path, displayed(picture, finish), SampleType::uint8);
+    else fail(Failure::usage, "{}: pictures are written as .png or .exr", path);
+}
+
+} // namespace relief

@@ -1,0 +1,469 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include <glm/trigonometric.hpp>
+
+#include "frame/passes.h"
+
+namespace relief {
+namespace {
+
+constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr std::uint32_t kGridRateLimit = 1024;
+
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+struct Targets {
+    Texture color, resolved, depth, shadow;
+    Buffer readback;
+};
+
+Targets makeTargets(Device& device, const RendererDesc& desc) {
+    const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
+    const VkSampleCountFlagBits samples = desc.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    const auto shadowSide = std::uint32_t(desc.shadowSide);
+    Targets t;
+    if (desc.samples == 4)
+        t.color = makeTexture(device, {.name = "color", .width = width, .height = height, .format = kColorFormat,
+                                       .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, .samples = samples});
+    t.resolved = makeTexture(device, {.name = "resolved", .width = width, .height = height, .format = kColorFormat,
+                                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
+    t.depth = makeTexture(device, {.name = "depth", .width = width, .height = height, .format = kDepthFormat,
+                                   .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, .samples = samples});
+    t.shadow = makeTexture(device, {.name = "shadow", .width = shadowSide, .height = shadowSide, .format = kDepthFormat,
+                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+    t.readback = makeBuffer(device, {.name = "picture", .bytes = std::uint64_t(width) * height * 8,
+                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT, .memory = MemoryUse::readback});
+    return t;
+}
+
+float floatOfHalf(std::uint16_t half) {
+    const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16, exponent = half >> 10 & 31u, mantissa = half & 1023u;
+    if (exponent == 0) return std::ldexp(float(mantissa), -24) * (sign != 0 ? -1.0f : 1.0f);
+    const std::uint32_t bits = sign | (exponent == 31 ? 0x7f800000u : (exponent + 112) << 23) | mantissa << 13;
+    float value = 0;
+    std::memcpy(&value, &bits, 4);
+    return value;
+}
+
+/// Right-handed view, Y down in clip space, depth 1 at the near and 0 at the far distance.
+mat4 perspectiveMatrix(const Camera& camera, double aspect) {
+    const dvec3 back = glm::normalize(camera.eye - camera.target);
+    const dvec3 helper = std::abs(back.y) > 0.9999 ? dvec3(0, 0, back.y > 0 ? -1 : 1) : dvec3(0, 1, 0);
+    const dvec3 right = glm::normalize(glm::cross(helper, back)), up = glm::cross(back, right);
+    const double f = 1 / std::tan(glm::radians(camera.fieldOfView) / 2);
+    const double n = camera.nearDistance, k = n / (camera.farDistance - n);
+    const dvec3 rows[4] = {right * (f / aspect), up * -f, back * k, -back};
+    const double offsets[4] = {0, 0, n * (k + 1), 0};
+    mat4 m;
+    for (int r = 0; r < 4; ++r) {
+        for (int c = 0; c < 3; ++c) m[c][r] = float(rows[r][c]);
+        m[3][r] = float(offsets[r] - glm::dot(rows[r], camera.eye));
+    }
+    return m;
+}
+
+/// Parallel projection along the key light, holding the whole object; nearer to the light is larger.
+mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds) {
+    const dvec3 helper = std::abs(towardsLight.y) > 0.99 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    const dvec3 right = glm::normalize(glm::cross(helper, towardsLight)), up = glm::cross(towardsLight, right);
+    const double radius = std::max(0.52 * bounds.diagonal(), 1e-9);
+    const dvec3 rows[3] = {right / radius, up / radius, towardsLight * (0.5 / radius)};
+    mat4 m(1);
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) m[c][r] = float(rows[r][c]);
+        m[3][r] = float((r == 2 ? 0.5 : 0.0) - glm::dot(rows[r], bounds.center()));
+    }
+    return m;
+}
+
+std::uint32_t showConstant(Show show) {
+    constexpr std::uint32_t kConstants[] = {kShowShaded, kShowNormal, kShowHeight, kShowRate, kShowFaces, kShowWireframe};
+    return kConstants[int(show)];
+}
+
+/// Two triangles a cell (one in the last of a triangle's row) over a grid of n segments a side.
+std::vector<std::uint32_t> gridIndices(std::uint32_t n, bool isTriangles) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(std::size_t(n) * n * 6);
+    const auto at = [n](std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < (isTriangles ? n - j : n); ++i) {
+            indices.insert(indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
+            if (!isTriangles || i + j + 2 <= n) indices.insert(indices.end(), {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    return indices;
+}
+
+VkRenderingAttachmentInfo attachment(const Texture& target, bool keeps) {
+    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = target.view.get();
+    info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = keeps ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    return info; // cleared to zero: transparent black, farthest depth
+}
+
+void setViewport(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) {
+    const VkViewport viewport{0, 0, float(width), float(height), 0, 1};
+    const VkRect2D scissor{{0, 0}, {width, height}};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+} // namespace
+
+struct Renderer::Parts {
+    Parts(Device& device, const RendererDesc& desc)
+        : device(device), desc(desc), targets(makeTargets(device, desc)), scene(makeSceneBuffer(device)),
+          repeating(makeSampler(device, {})),
+          clamped(makeSampler(device, {.wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                       .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+          around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})), timer(device, 8) {}
+
+    Device& device;
+    RendererDesc desc;
+    Targets targets;
+    Buffer scene;
+    Owned<VkSampler> repeating, clamped, around;
+    Timer timer;
+    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
+    std::map<std::pair<std::uint32_t, bool>, Buffer> grids;   ///< index buffers by rate and shape
+    Environment studio;                                        ///< made when first needed
+    const Environment* uploadedEnvironment = nullptr;
+    Texture environment;
+
+    /// Everything that one call of render() needs.
+    struct Frame {
+        const Model& model;
+        const RenderOptions& options;
+        Scene scene{};
+        Buffer edgeRates, drawFaces, draws;
+        DrawPlan plan;
+        TextureSet textures;
+    };
+
+    enum class Pass { rates, shadow, color, lines };
+
+    ShaderConstants constantsOf(const Frame& frame, Pass pass) const;
+    const Pipeline& pipelineOf(const Frame& frame, Pass pass);
+    std::vector<Stage> stagesOf(const Frame& frame, Pass pass) const;
+    void useEnvironment(const Lighting& lighting, Scene& scene);
+    void describeView(Frame& frame);
+    void makeEdgeRates(Frame& frame, FrameStats& stats);
+    void makePlan(Frame& frame);
+    const Buffer& gridOf(std::uint32_t rate, bool isTriangles);
+    void draw(VkCommandBuffer commands, const Frame& frame, Pass pass);
+    void shadowPass(VkCommandBuffer commands, const Frame& frame);
+    void colorPass(VkCommandBuffer commands, const Frame& frame);
+    void copyBack(VkCommandBuffer commands);
+    [[nodiscard]] Image readPixels() const;
+    [[nodiscard]] bool castsShadows(const Frame& frame) const {
+        return frame.options.lighting.castsShadows && frame.options.show == Show::shaded;
+    }
+};
+
+Renderer::Renderer(Device& device, const RendererDesc& desc) {
+    if (desc.width < 1 || desc.height < 1 || desc.width > 16384 || desc.height > 16384)
+        fail(Failure::usage, "a picture of {} x {} is not in 1..16384 each way", desc.width, desc.height);
+    parts_ = std::make_unique<Parts>(device, desc);
+}
+
+Renderer::~Renderer() = default;
+
+ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) const {
+    ShaderConstants c{.isGenericBasis = frame.options.isGenericBasis, .hasTexCoords = frame.model.hasTexCoords(),
+                      .hasHeight = frame.model.hasHeight(), .normal = frame.options.normal};
+    // Depth and rates need positions alone, and no normal is cheaper than the limit normal.
+    if (pass == Pass::rates || pass == Pass::shadow) c.normal = NormalKind::limit;
+    if (pass == Pass::color) {
+        c.show = showConstant(frame.options.show);
+        c.hasAlbedoMap = frame.model.hasAlbedoMap() && frame.model.hasTexCoords() && frame.options.show == Show::shaded;
+        c.wantsTexCoords = c.hasAlbedoMap;
+    }
+    if (pass == Pass::lines) c.show = kShowLines;
+    return c;
+}
+
+std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, Pass pass) const {
+    const bool isTriangles = frame.model.isTriangles();
+    std::vector<Stage> stages;
+    if (frame.model.isDense()) {
+        stages = {{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("mesh.vert")}};
+    } else if (frame.options.path == Path::grid) {
+        stages = {{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("grid.vert", isTriangles)}};
+    } else {
+        stages = {{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("patch.vert", isTriangles)},
+                  {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaderCode("patch.tesc", isTriangles)},
+                  {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaderCode("patch.tese", isTriangles)}};
+    }
+    if (pass != Pass::shadow) stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, shaderCode("shade.frag")});
+    return stages;
+}
+
+const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
+    const std::vector<std::uint32_t> constants = constantsOf(frame, pass).values();
+    std::vector<std::uint32_t> key = constants;
+    key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.options.path), frame.model.isDense(), frame.model.isTriangles()});
+    const auto found = pipelines.find(key);
+    if (found != pipelines.end()) return found->second;
+
+    if (pass == Pass::rates) {
+        const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("rates.comp", frame.model.isTriangles())};
+        return pipelines[key] = makeCompute(device, {.name = "rates", .stage = stage, .constants = constants, .layout = kPassLayout});
+    }
+    const bool isPatches = !frame.model.isDense() && frame.options.path == Path::tessellation;
+    GraphicsDesc graphics;
+    graphics.name = pass == Pass::shadow ? "shadow" : pass == Pass::color ? "color" : "lines";
+    graphics.stages = stagesOf(frame, pass);
+    graphics.constants = constants;
+    graphics.layout = kPassLayout;
+    graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    graphics.depthFormat = kDepthFormat;
+    if (pass != Pass::shadow) {
+        graphics.colorFormat = kColorFormat;
+        graphics.samples = desc.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+    }
+    if (pass == Pass::lines) {
+        graphics.polygonMode = VK_POLYGON_MODE_LINE;
+        graphics.pullsLinesForward = true;
+    }
+    return pipelines[key] = makeGraphics(device, graphics);
+}
+
+void Renderer::Parts::useEnvironment(const Lighting& lighting, Scene& sceneData) {
+    const Environment* wanted = lighting.environment;
+    if (wanted == nullptr) {
+        if (studio.levels.empty()) studio = studioEnvironment();
+        wanted = &studio;
+    }
+    if (wanted != uploadedEnvironment) {
+        std::vector<float> texels; // RGBA, level by level
+        for (const Image& level : wanted->levels)
+            for (std::size_t i = 0; i < level.texels.size(); i += 3)
+                texels.insert(texels.end(), {level.texels[i], level.texels[i + 1], level.texels[i + 2], 1.0f});
+        const Image& base = wanted->levels.front();
+        environment = uploadTexture(device, {.name = "environment", .width = std::uint32_t(base.width),
+                                             .height = std::uint32_t(base.height),
+                                             .mipCount = std::uint32_t(wanted->levels.size()),
+                                             .format = VK_FORMAT_R32G32B32A32_SFLOAT},
+                                    std::as_bytes(std::span(texels)), 16);
+        uploadedEnvironment = wanted;
+    }
+    std::copy_n(wanted->irradiance, 9, sceneData.irradiance);
+    sceneData.environmentLevel = float(wanted->levels.size() - 1);
+}
+
+void Renderer::Parts::describeView(Frame& frame) {
+    const RenderOptions& o = frame.options;
+    Scene& s = frame.scene;
+    frame.model.describe(s);
+    useEnvironment(o.lighting, s);
+    s.worldToClip = perspectiveMatrix(o.camera, double(desc.width) / desc.height);
+    s.eye = vec3(o.camera.eye);
+    s.nearDistance = float(o.camera.nearDistance);
+    s.pixelsAtUnitDistance = float(desc.height / (2 * std::tan(glm::radians(o.camera.fieldOfView) / 2)));
+    s.edgePixels = float(o.edgePixels);
+    s.exposure = 1;
+    const dvec3 key = directionAt(o.lighting.keyAzimuth, o.lighting.keyElevation);
+    s.keyDirection = vec3(key);
+    s.keyRadiance = vec3(float(o.lighting.keyStrength)) * vec3(1.0f, 0.97f, 0.92f);
+    s.albedo = o.material.albedo;
+    s.roughness = std::clamp(o.material.roughness, 0.05f, 1.0f);
+    s.hasShadows = castsShadows(frame) ? 1 : 0;
+    s.worldToShadow = shadowMatrix(key, o.bounds);
+    s.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
+    s.shadowSoftness = 3.0f / float(desc.shadowSide);
+
+    const TextureBinding bindings[kTextureCount] = {
+        {frame.model.heightMap().view.get(), repeating.get()},
+        {frame.model.albedoMap().view.get(), frame.model.wrap() == Wrap::repeat ? repeating.get() : clamped.get()},
+        {environment.view.get(), around.get()},
+        {targets.shadow.view.get(), clamped.get()}};
+    frame.textures = makeTextureSet(device, pipelineOf(frame, Pass::color), bindings);
+}
+
+void Renderer::Parts::makeEdgeRates(Frame& frame, FrameStats& stats) {
+    const DeviceTraits& traits = device.traits();
+    const bool isGrid = frame.options.path == Path::grid;
+    const std::uint32_t limit = isGrid ? kGridRateLimit : std::min(traits.maxTessellationLevel, 64u);
+    if (!isGrid && !traits.hasTessellation)
+        fail(Failure::usage, "{} has no tessellation shaders; use --path grid", traits.name);
+    if (frame.options.rate && (*frame.options.rate < 1 || std::uint32_t(*frame.options.rate) > limit))
+        fail(Failure::usage, "--rate {} is not in 1..{}{}", *frame.options.rate, limit,
+             isGrid ? "" : ", what the tessellator of this device does; --path grid goes to 1024");
+
+    const std::size_t edgeCount = frame.model.edgeCount();
+    std::vector<std::uint32_t> rates(edgeCount);
+    if (frame.options.rate) {
+        rates = frame.model.uniformRates(std::uint32_t(*frame.options.rate));
+        frame.edgeRates = uploadArray<std::uint32_t>(device, "edge rates", rates);
+        frame.scene.edgeRates = frame.edgeRates.address;
+    } else {
+        frame.edgeRates = makeBuffer(device, {.name = "edge rates", .bytes = edgeCount * 4,
+                                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+        frame.scene.edgeRates = frame.edgeRates.address;
+        frame.scene.maxRate = limit;
+        const Pipeline& pipeline = pipelineOf(frame, Pass::rates);
+        device.run([&](VkCommandBuffer commands) {
+            timer.reset(commands);
+            writeScene(commands, scene, frame.scene);
+            timer.stamp(commands);
+            bind(commands, pipeline, &frame.textures);
+            pushConstants(commands, pipeline, {.scene = scene.address});
+            vkCmdDispatch(commands, std::uint32_t((edgeCount + 63) / 64), 1, 1);
+            timer.stamp(commands);
+        });
+        const std::vector<double> times = timer.intervals();
+        if (!times.empty()) stats.rateMs = times[0];
+        downloadBytes(device, frame.edgeRates, std::as_writable_bytes(std::span(rates)));
+    }
+    frame.plan = isGrid ? planGrids(frame.model, rates) : planPatches(frame.model, rates, traits.tessellatedVerticesPerDraw);
+}
+
+void Renderer::Parts::makePlan(Frame& frame) {
+    frame.drawFaces = uploadArray<std::uint32_t>(device, "faces to draw", frame.plan.faces);
+    frame.scene.drawFaces = frame.drawFaces.address;
+    if (frame.options.path == Path::grid) return;
+    std::vector<VkDrawIndirectCommand> calls;
+    for (const DrawBatch& batch : frame.plan.batches) calls.push_back({batch.faceCount, 1, batch.firstFace, 0});
+    frame.draws = uploadArray<VkDrawIndirectCommand>(device, "draws", calls, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+}
+
+const Buffer& Renderer::Parts::gridOf(std::uint32_t rate, bool isTriangles) {
+    Buffer& grid = grids[{rate, isTriangles}];
+    if (grid.bytes == 0)
+        grid = uploadArray<std::uint32_t>(device, "grid", gridIndices(rate, isTriangles), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    return grid;
+}
+
+void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pass) {
+    const Pipeline& pipeline = pipelineOf(frame, pass);
+    bind(commands, pipeline, &frame.textures);
+    PushConstants constants{.scene = scene.address, .drawsShadow = pass == Pass::shadow ? 1u : 0u};
+    pushConstants(commands, pipeline, constants);
+    if (frame.model.isDense()) {
+        vkCmdBindIndexBuffer(commands, frame.model.indices().handle.get(), 0, VK_INDEX_TYPE_UINT32);
+        vkCmdDrawIndexed(commands, frame.model.indexCount(), 1, 0, 0, 0);
+        return;
+    }
+    if (frame.options.path == Path::tessellation) {
+        const std::uint32_t atOnce = device.traits().maxDrawIndirectCount;
+        const auto count = std::uint32_t(frame.plan.batches.size());
+        for (std::uint32_t first = 0; first < count; first += atOnce)
+            vkCmdDrawIndirect(commands, frame.draws.handle.get(), first * sizeof(VkDrawIndirectCommand),
+                              std::min(atOnce, count - first), sizeof(VkDrawIndirectCommand));
+        return;
+    }
+    for (const DrawBatch& batch : frame.plan.batches) {
+        const Buffer& grid = gridOf(batch.rate, frame.model.isTriangles());
+        constants.passNumber = batch.rate;
+        pushConstants(commands, pipeline, constants);
+        vkCmdBindIndexBuffer(commands, grid.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+        vkCmdDrawIndexed(commands, std::uint32_t(grid.bytes / 4), batch.faceCount, 0, 0, batch.firstFace);
+    }
+}
+
+void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
+    const auto side = std::uint32_t(desc.shadowSide);
+    const VkRenderingAttachmentInfo depth = attachment(targets.shadow, true);
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea = {{0, 0}, {side, side}};
+    info.layerCount = 1;
+    info.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &info);
+    setViewport(commands, side, side);
+    draw(commands, frame, Pass::shadow);
+    vkCmdEndRendering(commands);
+    barrier(commands);
+}
+
+void Renderer::Parts::colorPass(VkCommandBuffer commands, const Frame& frame) {
+    const bool isMultisampled = desc.samples == 4;
+    VkRenderingAttachmentInfo color = attachment(isMultisampled ? targets.color : targets.resolved, !isMultisampled);
+    if (isMultisampled) {
+        color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
+        color.resolveImageView = targets.resolved.view.get();
+        color.resolveImageLayout = VK_IMAGE_LAYOUT_GENERAL;
+    }
+    const VkRenderingAttachmentInfo depth = attachment(targets.depth, false);
+    const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea = {{0, 0}, {width, height}};
+    info.layerCount = 1;
+    info.colorAttachmentCount = 1;
+    info.pColorAttachments = &color;
+    info.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &info);
+    setViewport(commands, width, height);
+    draw(commands, frame, Pass::color);
+    if (frame.options.show == Show::wireframe) draw(commands, frame, Pass::lines);
+    vkCmdEndRendering(commands);
+    barrier(commands);
+}
+
+void Renderer::Parts::copyBack(VkCommandBuffer commands) {
+    VkBufferImageCopy region{};
+    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    region.imageExtent = {std::uint32_t(desc.width), std::uint32_t(desc.height), 1};
+    vkCmdCopyImageToBuffer(commands, targets.resolved.handle.get(), VK_IMAGE_LAYOUT_GENERAL,
+                           targets.readback.handle.get(), 1, &region);
+    barrier(commands);
+}
+
+Image Renderer::Parts::readPixels() const {
+    Image image{desc.width, desc.height, 4, {}};
+    image.texels.resize(std::size_t(desc.width) * std::size_t(desc.height) * 4);
+    const auto* halves = static_cast<const std::uint16_t*>(targets.readback.mapped);
+    std::transform(halves, halves + image.texels.size(), image.texels.begin(), floatOfHalf);
+    return image;
+}
+
+Picture Renderer::render(const Model& model, const RenderOptions& options) {
+    Parts& parts = *parts_;
+    if (options.show == Show::wireframe && !parts.device.traits().hasWireframe)
+        fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it", parts.device.traits().name);
+    const double start = secondsNow();
+    Picture picture;
+    picture.isDisplayReferred = options.show != Show::shaded;
+    FrameStats& stats = picture.stats;
+
+    Parts::Frame frame{.model = model, .options = options};
+    parts.describeView(frame);
+    if (model.isDense()) {
+        stats.triangleCount = model.indexCount() / 3;
+        stats.drawCount = 1;
+    } else {
+        parts.makeEdgeRates(frame, stats);
+        parts.makePlan(frame);
+        stats.triangleCount = frame.plan.triangleCount;
+        stats.faceCount = frame.plan.faces.size();
+        stats.drawCount = std::uint32_t(frame.plan.batches.size());
+        stats.maxRate = frame.plan.maxRate;
+        if (options.path == Path::grid)
+            for (const DrawBatch& batch : frame.plan.batches) parts.gridOf(batch.rate, model.isTriangles());
+    }
+    const bool castsShadows = parts.castsShadows(frame);
+    parts.device.run([&](VkCommandBuffer commands) {
+        parts.timer.reset(commands);
+        writeScene(commands, parts.scene, frame.scene);
+        parts.timer.stamp(commands);
+        if (castsShadows) parts.shadowPass(commands, frame);
+        parts.timer.stamp(commands);
+        parts.colorPass(commands, frame);
+        parts.timer.stamp(commands);
+        parts.copyBack(commands);
+    });
+    const std::vector<double> times = parts.timer.intervals();
+    if (times.size() == 2) stats.shadowMs = times[0], stats.colorMs = times[1];
+    picture.image = parts.readPixels();
+    stats.wallMs = 1e3 * (secondsNow() - start);
+    return picture;
+}
+
+} // namespace relief

@@ -1,0 +1,60 @@
+#include "frame/passes.h"
+
+namespace relief {
+namespace {
+
+void checkQuery(const Model& model, const SampleQuery& query, std::size_t row) {
+    if (query.face >= model.faces().size())
+        fail(Failure::input, "point {}: face {} is not in 0..{}", row, query.face, model.faces().size() - 1);
+    if (model.faces()[query.face].root == kNoPatch) fail(Failure::input, "point {}: face {} is a hole", row, query.face);
+    const vec2 uv = query.uv;
+    const bool isInside = uv.x >= 0 && uv.y >= 0 && (model.isTriangles() ? uv.x + uv.y <= 1 : uv.x <= 1 && uv.y <= 1);
+    if (!isInside)
+        fail(Failure::input, "point {}: (u,v) = ({}, {}) is outside the face: {}", row, uv.x, uv.y,
+             model.isTriangles() ? "u, v >= 0 and u + v <= 1" : "both in 0..1");
+}
+
+} // namespace
+
+Buffer makeSceneBuffer(Device& device) {
+    return makeBuffer(device, {.name = "scene", .bytes = sizeof(Scene),
+                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+}
+
+void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene) {
+    vkCmdUpdateBuffer(commands, buffer.handle.get(), 0, sizeof(Scene), &scene);
+    barrier(commands);
+}
+
+std::vector<SampleResult> sampleSurface(Device& device, const Model& model, std::span<const SampleQuery> queries,
+                                        NormalKind normal, bool isGenericBasis) {
+    for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], i);
+    const ShaderConstants constants{.isGenericBasis = isGenericBasis, .hasTexCoords = model.hasTexCoords(),
+                                    .hasHeight = model.hasHeight(), .normal = normal, .wantsTexCoords = true};
+    const Pipeline pipeline = makeCompute(
+        device, {.name = "sample", .stage = {VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("sample.comp", model.isTriangles())},
+                 .constants = constants.values(), .layout = kPassLayout});
+    const Owned<VkSampler> sampler = makeSampler(device, {});
+    const TextureBinding height{model.heightMap().view.get(), sampler.get()};
+    const TextureSet textures = makeTextureSet(device, pipeline, std::vector<TextureBinding>(kTextureCount, height));
+
+    const Buffer in = uploadArray(device, "queries", queries);
+    std::vector<SampleResult> results(queries.size());
+    const Buffer out = makeBuffer(device, {.name = "results", .bytes = results.size() * sizeof(SampleResult),
+                                           .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    const Buffer sceneBuffer = makeSceneBuffer(device);
+    Scene scene{};
+    model.describe(scene);
+    scene.sampleQueries = in.address;
+    scene.sampleResults = out.address;
+    device.run([&](VkCommandBuffer commands) {
+        writeScene(commands, sceneBuffer, scene);
+        bind(commands, pipeline, &textures);
+        pushConstants(commands, pipeline, {sceneBuffer.address, std::uint32_t(queries.size())});
+        vkCmdDispatch(commands, std::uint32_t((queries.size() + 63) / 64), 1, 1);
+    });
+    downloadBytes(device, out, std::as_writable_bytes(std::span(results)));
+    return results;
+}
+
+} // namespace relief

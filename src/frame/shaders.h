@@ -1,0 +1,13 @@
+// The compiled shaders: the build turns shaders/* into SPIR-V and embeds it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace relief {
+
+/// SPIR-V of a stage by its file's name, for faces with four sides or three. Throws Failure::internal for unknown names.
+std::span<const std::uint32_t> shaderCode(std::string_view name, bool isTriangles = false);
+
+} // namespace relief
