@@ -37,9 +37,17 @@ SchemeType schemeType(Scheme scheme) {
     }
 }
 
+Options::VtxBoundaryInterpolation boundaryInterpolation(BoundaryRule rule) {
+    switch (rule) {
+    case BoundaryRule::none: return Options::VTX_BOUNDARY_NONE;
+    case BoundaryRule::edgeAndCorner: return Options::VTX_BOUNDARY_EDGE_AND_CORNER;
+    default: return Options::VTX_BOUNDARY_EDGE_ONLY;
+    }
+}
+
 Options schemeOptions(const Cage& cage) {
     Options options;
-    options.SetVtxBoundaryInterpolation(Options::VtxBoundaryInterpolation(cage.boundaryRule));
+    options.SetVtxBoundaryInterpolation(boundaryInterpolation(cage.boundaryRule));
     options.SetFVarLinearInterpolation(Options::FVarLinearInterpolation(cage.texBoundaryRule));
     options.SetCreasingMethod(cage.creaseMethod == CreaseMethod::chaikin ? Options::CREASE_CHAIKIN
                                                                          : Options::CREASE_UNIFORM);

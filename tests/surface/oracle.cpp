@@ -50,7 +50,10 @@ std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme schem
     topology.fvarChannels = &channel;
 
     SchemeOptions options;
-    options.SetVtxBoundaryInterpolation(SchemeOptions::VtxBoundaryInterpolation(cage.boundaryRule));
+    options.SetVtxBoundaryInterpolation(cage.boundaryRule == BoundaryRule::none ? SchemeOptions::VTX_BOUNDARY_NONE
+                                        : cage.boundaryRule == BoundaryRule::edgeOnly
+                                            ? SchemeOptions::VTX_BOUNDARY_EDGE_ONLY
+                                            : SchemeOptions::VTX_BOUNDARY_EDGE_AND_CORNER);
     options.SetFVarLinearInterpolation(SchemeOptions::FVarLinearInterpolation(cage.texBoundaryRule));
     if (cage.creaseMethod == CreaseMethod::chaikin) options.SetCreasingMethod(SchemeOptions::CREASE_CHAIKIN);
     const auto type = scheme == Scheme::loop       ? OpenSubdiv::Sdc::SCHEME_LOOP
