@@ -97,7 +97,7 @@ enum class SampleType { uint8, uint16, half, real };
 
 /// Writes PNG, TIFF or EXR by the extension of `path`, whole or not at all. Values are written as they are (0..1 for
 /// integer samples, clamped). Throws Failure::usage for an unknown extension or a sample that the format has not (PNG
-/// holds integers, EXR half and real, TIFF all), Failure::file when writing fails.
+/// holds integers, EXR half and real, TIFF all; half becomes real there), Failure::file when writing fails.
 void writeImage(const std::string& path, const Image& image, SampleType sample);
 
 // --- files ------------------------------------------------------------------------------------------------------

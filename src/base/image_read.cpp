@@ -79,35 +79,28 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& path, const Image
              humanBytes(limits.decodedBytes));
 }
 
-struct OpenImage {
-    std::unique_ptr<OIIO::ImageInput> input;
-    std::string format;
-    OIIO::ImageSpec spec;
-};
+// --- files that were cut: libjpeg fills them up with grey and calls it success, libpng prints to stderr
+// -----------------
 
-OpenImage openImage(const std::string& path, const ImageLimits& limits) {
-    OpenImage image{.input = nullptr, .format = findFormat(path), .spec = {}};
-    image.input = OIIO::ImageInput::create(image.format);
-    if (!image.input) fail(Failure::internal, "OpenImageIO has no {} reader: {}", image.format, OIIO::geterror());
-    OIIO::ImageSpec asked;
-    asked.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours come multiplied by alpha: not the stored numbers
-    asked.attribute("oiio:RawColor", 1);
-    if (!image.input->open(path, image.spec, asked))
-        fail(Failure::input, "{}: damaged {} picture: {}", path, image.format, reason(*image.input));
-    checkSpec(image.spec, path, limits);
-    return image;
-}
-
-void checkChannel(int channel, const OIIO::ImageSpec& spec, const std::string& path) {
-    if (channel >= spec.nchannels)
-        fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist", path, channel, spec.nchannels - 1);
+/// True when the chunks (length, type, data, checksum) run to the end chunk.
+bool pngHasEnd(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    file.seekg(8);
+    std::array<unsigned char, 8> head{};
+    while (file.read(reinterpret_cast<char*>(head.data()), head.size())) {
+        const std::uint32_t length = std::uint32_t(head[0]) << 24 | head[1] << 16 | head[2] << 8 | head[3];
+        const bool isEnd = std::equal(head.begin() + 4, head.end(), "IEND");
+        file.seekg(std::streamoff(length) + (isEnd ? 3 : 4), std::ios::cur);
+        if (isEnd) return file.get() != std::ifstream::traits_type::eof(); // the last byte of its checksum
+    }
+    return false;
 }
 
 constexpr int kStartOfImage = 0xd8, kEndOfImage = 0xd9, kFirstRestart = 0xd0;
 
 bool standsAlone(int marker) { return marker == 0x01 || (marker >= kFirstRestart && marker <= kStartOfImage); }
 
-/// True when the JPEG file's own end marker is there. libjpeg fills a cut file up with grey and calls it success.
+/// True when the picture's own end marker is there.
 bool jpegHasEnd(const std::string& path) {
     const std::string bytes = readFile(path);
     const auto byteAt = [&](std::size_t i) { return int(static_cast<unsigned char>(bytes[i])); };
@@ -126,6 +119,38 @@ bool jpegHasEnd(const std::string& path) {
         i += std::size_t(byteAt(i)) << 8 | std::size_t(byteAt(i + 1));
     }
     return false;
+}
+
+void checkEnd(const std::string& path, const std::string& format) {
+    if ((format == "png" && !pngHasEnd(path)) || (format == "jpeg" && !jpegHasEnd(path)))
+        fail(Failure::input, "{}: damaged {} picture: the file ends before the picture does", path, format);
+}
+
+// --- reading -----------------------------------------------------------------------------------------------------
+
+struct OpenImage {
+    std::unique_ptr<OIIO::ImageInput> input;
+    std::string format;
+    OIIO::ImageSpec spec;
+};
+
+OpenImage openImage(const std::string& path, const ImageLimits& limits) {
+    OpenImage image{.input = nullptr, .format = findFormat(path), .spec = {}};
+    checkEnd(path, image.format);
+    image.input = OIIO::ImageInput::create(image.format);
+    if (!image.input) fail(Failure::internal, "OpenImageIO has no {} reader: {}", image.format, OIIO::geterror());
+    OIIO::ImageSpec asked;
+    asked.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours come multiplied by alpha: not the stored numbers
+    asked.attribute("oiio:RawColor", 1);
+    if (!image.input->open(path, image.spec, asked))
+        fail(Failure::input, "{}: damaged {} picture: {}", path, image.format, reason(*image.input));
+    checkSpec(image.spec, path, limits);
+    return image;
+}
+
+void checkChannel(int channel, const OIIO::ImageSpec& spec, const std::string& path) {
+    if (channel >= spec.nchannels)
+        fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist", path, channel, spec.nchannels - 1);
 }
 
 } // namespace
@@ -152,11 +177,10 @@ Image readImage(const std::string& path, int channel, const ImageLimits& limits)
     Image image{.width = source.spec.width, .height = source.spec.height, .channels = end - first, .texels = {}};
     image.texels.resize(std::size_t(image.width) * image.height * image.channels);
     const bool isRead = source.input->read_image(0, 0, first, end, OIIO::TypeFloat, image.texels.data());
-    const bool isClosed = source.input->close(); // some readers report a damaged end only here
-    if (!isRead || !isClosed)
+    const bool isSilent = !source.input->has_error(); // the TIFF reader returns true for strips that it could not read
+    const bool isClosed = source.input->close();
+    if (!isRead || !isSilent || !isClosed)
         fail(Failure::input, "{}: damaged {} picture: {}", path, source.format, reason(*source.input));
-    if (source.format == "jpeg" && !jpegHasEnd(path))
-        fail(Failure::input, "{}: damaged jpeg picture: the file ends before the picture does", path);
     return image;
 }
 

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 namespace relief {
@@ -59,15 +60,19 @@ void writeImage(const std::string& path, const Image& image, SampleType sample) 
     checkShape(path, image);
     OIIO::ImageSpec spec(image.width, image.height, image.channels, sampleDesc(sample));
     spec.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours are divided by alpha on the way out
+    spec.attribute("tiff:write_exif", 0);        // it would be read back, and memory output cannot be read
     const std::vector<float> texels = isInteger(sample) ? clamped(image.texels) : image.texels;
 
-    writeWhole(path, [&](const std::string& temporary) {
-        const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-        if (!output) fail(Failure::internal, "OpenImageIO has no {} writer: {}", format, OIIO::geterror());
-        const bool isWritten =
-            output->open(temporary, spec) && output->write_image(OIIO::TypeFloat, texels.data()) && output->close();
-        if (!isWritten) fail(Failure::file, "{}: cannot be written: {}", path, output->geterror());
-    });
+    // Into memory first: the PNG writer does not notice a full disk, TIFF and EXR miss their last block.
+    std::vector<unsigned char> encoded;
+    OIIO::Filesystem::IOVecOutput memory(encoded);
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
+    if (!output || !output->supports("ioproxy") || !output->set_ioproxy(&memory))
+        fail(Failure::internal, "OpenImageIO has no {} writer into memory: {}", format, OIIO::geterror());
+    const bool isWritten = output->open(path, spec) && output->write_image(OIIO::TypeFloat, texels.data());
+    if (!output->close() || !isWritten || output->has_error())
+        fail(Failure::file, "{}: cannot be written as {}: {}", path, format, output->geterror());
+    writeFile(path, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});
 }
 
 } // namespace relief
