@@ -41,7 +41,7 @@ TEST(BuildSurface, TakesDegenerateFacesWithoutAWord) {
 }
 
 TEST(BuildSurface, ReportsItsSize) {
-    const Surface coarse = buildSurface(seamedTorus(6, 4), {Scheme::catmark, 2});
+    const Surface coarse = buildSurface(test::torusWithSeams(), {Scheme::catmark, 2});
     const Surface fine = buildSurface(poles(5), {Scheme::catmark, 6});
     EXPECT_GT(coarse.byteCount(), coarse.patches.size() * sizeof(Patch) + coarse.texPoints.size() * sizeof(vec2));
     EXPECT_GT(fine.byteCount(), fine.stencils.weights.size() * 8);

@@ -21,6 +21,8 @@ public:
     [[nodiscard]] dvec3 position(int face, int i, int j) const { return positions_[vertexAt(face, i, j)]; }
     /// Texture coordinates there.
     [[nodiscard]] dvec2 texCoord(int face, int i, int j) const;
+    /// Levels of refinement: more than the grid needs where there are n-gons or semi-sharp creases.
+    [[nodiscard]] int levels() const { return refiner_->GetMaxLevel(); }
     [[nodiscard]] int faceCount() const { return int(grids_.size()); }
     [[nodiscard]] int gridSize() const { return gridSize_; }
 
