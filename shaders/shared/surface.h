@@ -60,7 +60,7 @@ struct Face {
 // A stretch of one side of one face: an edge's parameter t in [0,1] is at x = start + t (end - start) along the side.
 struct Touch {
     uint face;
-    uint side;           // for corners: the corner, and start = end = 0
+    uint side;           // for corners: start = end, 0 at the face's corner `side`, ½ in the middle of a split side
     float start;
     float end;
 };

@@ -93,23 +93,23 @@ private:
 
     // --- corners
 
-    std::uint32_t addCorner(const Touch& owner, std::vector<Touch>& touches, bool isAgreed) {
-        Corner corner{owner, std::uint32_t(surface_.touches.size()), 0};
+    /// Adds a corner that belongs to the lowest face.
+    std::uint32_t addCorner(std::vector<Touch>& touches, bool isAgreed) {
+        sortByFace(touches);
+        Corner corner{touches.front(), std::uint32_t(surface_.touches.size()), 0};
         if (isAgreed) corner.touchCount = addTouches(touches);
         surface_.corners.push_back(corner);
         return std::uint32_t(surface_.corners.size() - 1);
     }
 
-    std::uint32_t addTouches(std::vector<Touch>& touches) {
+    static void sortByFace(std::vector<Touch>& touches) {
         std::stable_sort(touches.begin(), touches.end(),
                          [](const Touch& a, const Touch& b) { return a.face < b.face; });
-        surface_.touches.insert(surface_.touches.end(), touches.begin(), touches.end());
-        return std::uint32_t(touches.size());
     }
 
-    static Touch lowest(const std::vector<Touch>& touches) {
-        return *std::min_element(touches.begin(), touches.end(),
-                                 [](const Touch& a, const Touch& b) { return a.face < b.face; });
+    std::uint32_t addTouches(const std::vector<Touch>& touches) {
+        surface_.touches.insert(surface_.touches.end(), touches.begin(), touches.end());
+        return std::uint32_t(touches.size());
     }
 
     void addVertexCorners() {
@@ -123,24 +123,22 @@ private:
                 const int corner = isNgon(faces[i]) ? 0 : positions[i];
                 touches.push_back({quadOf(faces[i], positions[i]), std::uint32_t(corner), 0, 0});
             }
-            if (!touches.empty()) cornerOfVertex_[vertex] = addCorner(lowest(touches), touches, isAgreedVertex(vertex));
+            if (!touches.empty()) cornerOfVertex_[vertex] = addCorner(touches, isAgreedVertex(vertex));
         }
     }
 
-    // The middle of a split edge is a corner of n-gon quads and a point on the sides of quads; an n-gon's corner owns
-    // it.
+    /// The middle of a split edge is a corner of n-gons' quads and a point on the sides of quads.
     std::uint32_t addMiddleCorner(const std::vector<SideUse>& uses, bool isAgreed) {
-        std::vector<Touch> touches, ngonTouches;
+        std::vector<Touch> touches;
         for (const SideUse& use : uses) {
             if (isNgon(use.face)) {
-                ngonTouches.push_back({quadOf(use.face, use.side), 1, 0, 0});
-                ngonTouches.push_back({quadOf(use.face, use.side + 1), 3, 0, 0});
+                touches.push_back({quadOf(use.face, use.side), 1, 0, 0});
+                touches.push_back({quadOf(use.face, use.side + 1), 3, 0, 0});
             } else {
                 touches.push_back({quadOf(use.face, 0), std::uint32_t(use.side), 0.5F, 0.5F});
             }
         }
-        touches.insert(touches.end(), ngonTouches.begin(), ngonTouches.end());
-        return addCorner(lowest(ngonTouches), touches, isAgreed);
+        return addCorner(touches, isAgreed);
     }
 
     // --- edges
@@ -153,6 +151,7 @@ private:
     void addEdge(std::vector<Touch> touches, std::uint32_t start, std::uint32_t end, std::uint32_t partner,
                  bool isAgreed) {
         Edge edge{touches.front(), {start, end}, std::uint32_t(surface_.touches.size()), 0, partner};
+        sortByFace(touches);
         if (isAgreed) edge.touchCount = addTouches(touches);
         surface_.edges.push_back(edge);
     }
@@ -216,7 +215,7 @@ private:
         std::vector<Touch> touches;
         touches.reserve(size);
         for (int i = 0; i < size; ++i) touches.push_back({quadOf(face, i), 2, 0, 0});
-        const std::uint32_t center = addCorner(touches.front(), touches, isBilinear_);
+        const std::uint32_t center = addCorner(touches, isBilinear_);
         for (int i = 0; i < size; ++i) {
             const std::uint32_t middle = middleOfSide(face, i);
             const auto edge = std::uint32_t(surface_.edges.size());

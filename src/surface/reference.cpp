@@ -1,6 +1,5 @@
 // The double-precision evaluator: OpenSubdiv's patches, with the derivatives that it gets wrong put right.
 #include <algorithm>
-#include <cmath>
 
 #include <opensubdiv/far/patchMap.h>
 
@@ -118,6 +117,10 @@ struct ReferenceSurface::Parts {
     bool isCutShort; ///< some finite sharpness outlasts the isolation
 };
 
+bool LimitFrame::hasTangentPlane() const {
+    return glm::length(glm::cross(pu, pv)) > 1e-6 * std::max(glm::dot(pu, pu), glm::dot(pv, pv));
+}
+
 ReferenceSurface::ReferenceSurface(const Cage& cage, const SurfaceOptions& options)
     : parts_(std::make_unique<Parts>(cage, options)) {}
 ReferenceSurface::~ReferenceSurface() = default;
@@ -178,9 +181,7 @@ dvec3 ReferenceSurface::normal(int face, const dvec2& uv) const {
     const dvec2 center(parts_->sideCount == 4 ? 1.0 / 2 : 1.0 / 3);
     for (const double step : {0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
         const LimitFrame frame = limit(face, glm::mix(uv, center, step));
-        const dvec3 m = glm::cross(frame.pu, frame.pv);
-        const double longest = std::max(glm::dot(frame.pu, frame.pu), glm::dot(frame.pv, frame.pv));
-        if (glm::length(m) > 1e-6 * longest) return glm::normalize(m);
+        if (frame.hasTangentPlane()) return glm::normalize(glm::cross(frame.pu, frame.pv));
     }
     return {0, 0, 1}; // the face has no area: any direction is as good
 }

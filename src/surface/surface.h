@@ -64,6 +64,9 @@ dvec2 sidePoint(int sideCount, int side, double x);
 /// Limit position and its derivatives by face coordinates (u,v).
 struct LimitFrame {
     dvec3 p{0}, pu{0}, pv{0}, puu{0}, puv{0}, pvv{0};
+
+    /// False where p_u and p_v are parallel or vanish: at cusps and at corners of smooth boundaries.
+    [[nodiscard]] bool hasTangentPlane() const;
 };
 
 /// Texture coordinates and their Jacobian: columns d(s,t)/du and d(s,t)/dv.
