@@ -6,11 +6,12 @@
 #include "places.glsl"
 #include "shared/displacement.h"
 
+layout(constant_id = 1) const bool kHasTexCoords = false; // else a face's own (u,v) stand in for them
 layout(constant_id = 2) const bool kHasHeight = false;
 layout(constant_id = 3) const uint kNormal = kNormalFull;
 layout(constant_id = 4) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
 
-layout(set = 0, binding = 0) uniform sampler2D heightMap;
+layout(set = 0, binding = kBindHeight) uniform sampler2D heightMap;
 
 // --- heights --------------------------------------------------------------------------------------------------------
 
@@ -104,9 +105,11 @@ struct DisplacedSample {
     mat2 jacobian;   // of the texture coordinates
 };
 
-TexFrame texCoordsAt(Leaf leaf, vec2 uv) {
-    if (kHasTexCoords) return textureInLeaf(leaf);
-    return TexFrame(uv, mat2(1.0));
+// The drawn face's texture coordinates where the point is evaluated at another face.
+vec2 ownTexCoords(uint face, vec2 uv) {
+    if (!kHasTexCoords) return uv;
+    Leaf leaf = findLeaf(face, uv);
+    return patchFrame(true, fetchPatch(leaf.patchIndex), leaf.uv).p.xy;
 }
 
 // Walks the faces that meet at the place, in the edge's fixed order: one of them where the surface is smooth, all where
@@ -119,21 +122,29 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
     bool isOwn = false;
     for (uint i = 0u; i < count; ++i) {
         Touch touch = place.owner;
-        if (place.touchCount > 0u) touch = scene.touches.at[place.firstTouch + i];
+        if (place.touchCount > 0u) touch = fetchTouch(place.firstTouch + i);
         vec2 uv = place.isInside ? place.uv : touchPoint(touch, place.t);
+        bool isTouchOfFace = touch.face == face && !isOwn;
+        bool isUsed = i == 0u || isTouchOfFace;
+        // One call for both kinds of patch: the compiler unfolds every call, and compiling is part of a cold start.
         Leaf leaf = findLeaf(touch.face, uv);
-        LimitFrame frame = limitInLeaf(leaf);
+        Patch patch_ = fetchPatch(leaf.patchIndex);
+        LimitFrame frame = kNoFrame;
+        TexFrame tex = TexFrame(uv, mat2(1.0));
+        uint kinds = isUsed && kHasTexCoords && (kHasHeight || kWantsTexCoords) ? 2u : 1u;
+        for (uint kind = 0u; kind < kinds; ++kind) {
+            LimitFrame f = byFace(patchFrame(kind == 1u, patch_, leaf.uv), leaf.scale);
+            if (kind == 0u) frame = f;
+            else tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
+        }
         mendTangents(frame, uv);
         vec3 areaNormal = cross(frame.pu, frame.pv);
         float area = length(areaNormal);
         precise vec3 n = areaNormal / area;
         direction += n;
 
-        bool isTouchOfFace = touch.face == face && !isOwn;
-        if (i == 0u || isTouchOfFace) {
+        if (isUsed) {
             isOwn = touch.face == face;
-            TexFrame tex = TexFrame(vec2(0), mat2(1));
-            if (kHasHeight || kWantsTexCoords) tex = texCoordsAt(leaf, uv);
             HeightSample height = HeightSample(0.0, vec2(0));
             if (kHasHeight) height = sampleHeight(tex.st);
             if (i == 0u) {
@@ -154,7 +165,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
     precise vec3 q = displacedPoint(s.p, direction, s.h);
     s.q = q;
     s.normal = dot(s.normal, s.normal) > 0.0 ? normalize(s.normal) : s.n;
-    if (kWantsTexCoords && kHasTexCoords && !isOwn) s.st = textureInLeaf(findLeaf(face, faceUV)).st;
+    if (kWantsTexCoords && !isOwn) s.st = ownTexCoords(face, faceUV);
     return s;
 }
 #endif

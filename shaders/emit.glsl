@@ -7,13 +7,7 @@ vec4 project(vec3 position) {
     return scene.worldToClip * vec4(position, 1.0);
 }
 
-uint largestSideRate(uint face) {
-    uint rate = 0u;
-    for (uint side = 0u; side < kSideCount; ++side) rate = max(rate, sideRate(scene.faces.at[face].sides[side]));
-    return rate;
-}
-
-void emitVertex(uint face, vec2 uv, Place place) {
+void emitVertex(uint face, vec2 uv, Place place, uint rate) {
     DisplacedSample s = displaced(face, uv, place);
     precise vec4 clip = project(s.q);
     gl_Position = clip;
@@ -21,6 +15,6 @@ void emitVertex(uint face, vec2 uv, Place place) {
     vNormal = s.normal;
     vTexCoord = s.st;
     vHeight = s.h;
-    vFace = scene.faces.at[face].cageFace;
-    vRate = largestSideRate(face);
+    vFace = recordTexel(scene.firstFace, kFaceTexels, face, 1u).y;
+    vRate = rate;
 }

@@ -8,7 +8,7 @@
 uint snap(uint k, uint from, uint to) { return (2u * k * to + from) / (2u * from); }
 
 void main() {
-    uint face = scene.drawFaces.at[gl_InstanceIndex];
+    uint face = texelFetch(drawFaceTexels, gl_InstanceIndex).x;
     uint n = passNumber;
     uint i = uint(gl_VertexIndex) % (n + 1u), j = uint(gl_VertexIndex) / (n + 1u);
     vec2 uv = vec2(i, j) / float(n);
@@ -25,9 +25,9 @@ void main() {
 #endif
     Place place = insidePlace(face, uv);
     if (side < 4u) {
-        uint entry = scene.faces.at[face].sides[side];
+        uint entry = fetchFace(face).sides[side];
         uint rate = sideRate(entry);
         place = sidePlace(entry, snap(k, n, rate), rate);
     }
-    emitVertex(face, uv, place);
+    emitVertex(face, uv, place, n);
 }

@@ -4,17 +4,21 @@
 
 #include "scene.glsl"
 
-// OpenSubdiv's own basis functions, as its library prints them (the build writes the file).
+// OpenSubdiv's own basis functions, as its library prints them (the build writes the file): what triangles are drawn
+// with, and the check of the faster forms below for quads (tests compare them through sample.comp).
+#if defined(RELIEF_TRIANGLES) || defined(RELIEF_GENERIC_BASIS)
 #define OSD_PATCH_BASIS_GLSL
 #define OPENSUBDIV_GREGORY_EVAL_TRUE_DERIVATIVES
 #include "osd_patch_basis.glsl"
+#endif
 
-// Constant 0: the regular patches by OpenSubdiv's generic basis instead of bicubic() below. Slower; kept as the check.
-layout(constant_id = 0) const bool kGenericBasis = false;
+layout(constant_id = 0) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
 
 struct LimitFrame {
     vec3 p, pu, pv, puu, puv, pvv;
 };
+
+const LimitFrame kNoFrame = LimitFrame(vec3(0), vec3(0), vec3(0), vec3(0), vec3(0), vec3(0));
 
 struct TexFrame {
     vec2 st;
@@ -31,7 +35,7 @@ struct Leaf {
 // Halving is exact in floating point, so all faces that name a point the same way arrive at the same local (u,v).
 Leaf findLeaf(uint face, vec2 uv) {
     Leaf leaf = Leaf(0u, uv, 1.0);
-    uint entry = scene.faces.at[face].root;
+    uint entry = faceRoot(face);
     while ((entry & kLeafBit) == 0u) {
 #ifdef RELIEF_TRIANGLES
         uint child = leaf.uv.x >= 0.5 ? 1u : leaf.uv.y >= 0.5 ? 2u : leaf.uv.x + leaf.uv.y > 0.5 ? 3u : 0u;
@@ -44,25 +48,44 @@ Leaf findLeaf(uint face, vec2 uv) {
         leaf.uv = 2.0 * leaf.uv - vec2(upper);
         leaf.scale *= 2.0;
 #endif
-        entry = scene.tree.at[entry + child];
+        entry = treeEntry(entry + child);
     }
     leaf.patchIndex = entry & ~kLeafBit;
     return leaf;
 }
 
-// --- regular bicubic patches ----------------------------------------------------------------------------------------
+// A control point of a patch of the surface, or of the texture coordinates on it (in x and y).
+vec3 controlPoint(bool isTexture, uint i) {
+    if (isTexture) return vec3(texPatchPoint(i), 0.0);
+    return patchPoint(i);
+}
 
-// Uniform cubic B-spline weights of four control points and their derivatives.
+#ifndef RELIEF_TRIANGLES
+
+// --- bicubic patches ------------------------------------------------------------------------------------------------
+
+// Weights of four control points along a curve and their derivatives.
 struct CurveWeights {
     vec4 w, d, dd;
 };
 
-CurveWeights curveWeights(float t) {
+// Uniform cubic B-spline.
+CurveWeights splineWeights(float t) {
     float t2 = t * t, t3 = t2 * t, r = 1.0 - t;
     CurveWeights c;
     c.w = vec4(r * r * r, 4.0 - 6.0 * t2 + 3.0 * t3, 1.0 + 3.0 * (t + t2 - t3), t3) * (1.0 / 6.0);
     c.d = vec4(-0.5 * r * r, 1.5 * t2 - 2.0 * t, -1.5 * t2 + t + 0.5, 0.5 * t2);
     c.dd = vec4(r, 3.0 * t - 2.0, 1.0 - 3.0 * t, t);
+    return c;
+}
+
+// Cubic Bernstein polynomials.
+CurveWeights bezierWeights(float t) {
+    float r = 1.0 - t;
+    CurveWeights c;
+    c.w = vec4(r * r * r, 3.0 * r * r * t, 3.0 * r * t * t, t * t * t);
+    c.d = 3.0 * vec4(-r * r, r * (r - 2.0 * t), t * (2.0 * r - t), t * t);
+    c.dd = 6.0 * vec4(r, t - 2.0 * r, r - 2.0 * t, t);
     return c;
 }
 
@@ -76,28 +99,24 @@ CurveWeights atBoundary(CurveWeights c, bool first, bool last) {
     return c;
 }
 
-// Far::PatchParam's boundary mask: bit 0 v = 0, bit 1 u = 1, bit 2 v = 1, bit 3 u = 0.
-uint boundaryMask(uint param1) { return (param1 >> 7) & 31u; }
-
-void bicubicWeights(vec2 uv, uint boundary, out CurveWeights u, out CurveWeights v) {
-    u = curveWeights(uv.x);
-    v = curveWeights(uv.y);
+// param1 is Far::PatchParam's field1; bits 7..10 mark boundaries: v = 0, u = 1, v = 1, u = 0.
+void regularWeights(vec2 uv, uint param1, out CurveWeights u, out CurveWeights v) {
+    u = splineWeights(uv.x);
+    v = splineWeights(uv.y);
+    uint boundary = (param1 >> 7) & 15u;
     if (boundary != 0u) {
         u = atBoundary(u, (boundary & 8u) != 0u, (boundary & 2u) != 0u);
         v = atBoundary(v, (boundary & 1u) != 0u, (boundary & 4u) != 0u);
     }
 }
 
-LimitFrame bicubic(uint firstPoint, uint boundary, vec2 uv) {
+LimitFrame regular(uint firstPoint, uint param1, vec2 uv) {
     CurveWeights u, v;
-    bicubicWeights(uv, boundary, u, v);
-    precise LimitFrame f = LimitFrame(vec3(0), vec3(0), vec3(0), vec3(0), vec3(0), vec3(0));
+    regularWeights(uv, param1, u, v);
+    precise LimitFrame f = kNoFrame;
     for (uint row = 0u; row < 4u; ++row) {
         uint first = firstPoint + 4u * row;
-        vec3 a = scene.points.at[scene.patchPoints.at[first]];
-        vec3 b = scene.points.at[scene.patchPoints.at[first + 1u]];
-        vec3 c = scene.points.at[scene.patchPoints.at[first + 2u]];
-        vec3 d = scene.points.at[scene.patchPoints.at[first + 3u]];
+        vec3 a = patchPoint(first), b = patchPoint(first + 1u), c = patchPoint(first + 2u), d = patchPoint(first + 3u);
         precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
         precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
@@ -111,8 +130,90 @@ LimitFrame bicubic(uint firstPoint, uint boundary, vec2 uv) {
     return f;
 }
 
-// --- every other patch, by OpenSubdiv's basis -----------------------------------------------------------------------
+// The same for texture coordinates: two components, first derivatives.
+LimitFrame regularTexture(uint firstPoint, uint param1, vec2 uv) {
+    CurveWeights u, v;
+    regularWeights(uv, param1, u, v);
+    vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
+    for (uint row = 0u; row < 4u; ++row) {
+        uint first = firstPoint + 4u * row;
+        vec2 a = texPatchPoint(first), b = texPatchPoint(first + 1u), c = texPatchPoint(first + 2u), d = texPatchPoint(first + 3u);
+        vec2 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
+        st += v.w[row] * x;
+        su += v.w[row] * (u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d);
+        sv += v.d[row] * x;
+    }
+    return LimitFrame(vec3(st, 0), vec3(su, 0), vec3(sv, 0), vec3(0), vec3(0), vec3(0));
+}
 
+// --- Gregory patches ------------------------------------------------------------------------------------------------
+
+// Loop, Schaefer, Ni, Castano (2009): a bicubic Bezier patch whose four inner points F depend on (u,v), each a blend
+// g a + (1 - g) b of two of the 20 control points with g = x / (x + y), where x and y are the distances to the sides
+// at that corner. The derivatives are the true ones: product rule with those of F.
+//
+// Which control point each Bezier point is, by row, five bits each; inner ones name the first of their pair.
+const uint kGregoryRows[4] = {0u | 1u << 5 | 7u << 10 | 5u << 15, 2u | 3u << 5 | 8u << 10 | 6u << 15,
+                              16u | 18u << 5 | 13u << 10 | 12u << 15, 15u | 17u << 5 | 11u << 10 | 10u << 15};
+
+LimitFrame gregory(bool isTexture, uint firstPoint, vec2 uv) {
+    CurveWeights u = bezierWeights(uv.x), v = bezierWeights(uv.y);
+    precise LimitFrame f = kNoFrame;
+    for (uint k = 0u; k < 16u; ++k) {
+        uint row = k >> 2, column = k & 3u;
+        uint point = (kGregoryRows[row] >> (5u * column)) & 31u;
+        vec3 c = controlPoint(isTexture, firstPoint + point);
+        vec3 cu = vec3(0), cv = vec3(0), cuu = vec3(0), cuv = vec3(0), cvv = vec3(0);
+        if ((row == 1u || row == 2u) && (column == 1u || column == 2u)) {
+            // Distances from the corner's two sides and their derivatives: +1 at the near end, -1 at the far one.
+            float du = column == 1u ? 1.0 : -1.0, dv = row == 1u ? 1.0 : -1.0;
+            float x = column == 1u ? uv.x : 1.0 - uv.x, y = row == 1u ? uv.y : 1.0 - uv.y;
+            float inverse = x + y > 0.0 ? 1.0 / (x + y) : 0.0;
+            // The pair's first point goes with x at corners 0 and 2 (row and column alike), with y at corners 1 and 3.
+            bool isX = row == column;
+            float g = (isX ? x : y) * inverse;
+            float gx = (isX ? y : -y) * inverse * inverse, gy = (isX ? -x : x) * inverse * inverse;
+            float gxx = -2.0 * gx * inverse, gyy = -2.0 * gy * inverse;
+            float gxy = (isX ? x - y : y - x) * inverse * inverse * inverse;
+            vec3 other = controlPoint(isTexture, firstPoint + point + 1u);
+            vec3 difference = c - other;
+            c = other + g * difference;
+            cu = gx * du * difference;
+            cv = gy * dv * difference;
+            cuu = gxx * difference;
+            cuv = gxy * du * dv * difference;
+            cvv = gyy * difference;
+        }
+        float wu = u.w[column], wv = v.w[row], du = u.d[column], dv = v.d[row];
+        f.p += wu * wv * c;
+        f.pu += wv * (du * c + wu * cu);
+        f.pv += wu * (dv * c + wv * cv);
+        f.puu += wv * (u.dd[column] * c + 2.0 * du * cu + wu * cuu);
+        f.puv += du * dv * c + du * wv * cv + wu * dv * cu + wu * wv * cuv;
+        f.pvv += wu * (v.dd[row] * c + 2.0 * dv * cv + wv * cvv);
+    }
+    return f;
+}
+
+// --- bilinear patches -----------------------------------------------------------------------------------------------
+
+LimitFrame bilinear(bool isTexture, uint firstPoint, vec2 uv) {
+    vec3 a = controlPoint(isTexture, firstPoint), b = controlPoint(isTexture, firstPoint + 1u);
+    vec3 c = controlPoint(isTexture, firstPoint + 2u), d = controlPoint(isTexture, firstPoint + 3u);
+    LimitFrame f = kNoFrame;
+    precise vec3 low = (1.0 - uv.x) * a + uv.x * b, high = (1.0 - uv.x) * d + uv.x * c;
+    precise vec3 p = (1.0 - uv.y) * low + uv.y * high;
+    f.p = p;
+    f.pu = (1.0 - uv.y) * (b - a) + uv.y * (c - d);
+    f.pv = high - low;
+    f.puv = a - b + c - d;
+    return f;
+}
+#endif
+
+// --- any patch, by OpenSubdiv's basis -------------------------------------------------------------------------------
+
+#if defined(RELIEF_TRIANGLES) || defined(RELIEF_GENERIC_BASIS)
 struct Basis {
     float p[20], du[20], dv[20], duu[20], duv[20], dvv[20];
     int count;
@@ -157,11 +258,11 @@ Basis genericBasis(uint type, uint param1, vec2 uv) {
     return w;
 }
 
-LimitFrame generic(Patch patch_, vec2 uv) {
-    Basis w = genericBasis(patch_.type, patch_.param1, uv);
-    precise LimitFrame f = LimitFrame(vec3(0), vec3(0), vec3(0), vec3(0), vec3(0), vec3(0));
+LimitFrame generic(bool isTexture, uint type, uint param1, uint firstPoint, vec2 uv) {
+    Basis w = genericBasis(type, param1, uv);
+    precise LimitFrame f = kNoFrame;
     for (int i = 0; i < w.count; ++i) {
-        vec3 c = scene.points.at[scene.patchPoints.at[patch_.firstPoint + uint(i)]];
+        vec3 c = controlPoint(isTexture, firstPoint + uint(i));
         f.p += w.p[i] * c;
         f.pu += w.du[i] * c;
         f.pv += w.dv[i] * c;
@@ -171,58 +272,33 @@ LimitFrame generic(Patch patch_, vec2 uv) {
     }
     return f;
 }
+#endif
 
-LimitFrame limitInLeaf(Leaf leaf) {
-    Patch patch_ = scene.patches.at[leaf.patchIndex];
-    LimitFrame f;
-    if (patch_.type == kPatchRegular && !kGenericBasis)
-        f = bicubic(patch_.firstPoint, boundaryMask(patch_.param1), leaf.uv);
-    else
-        f = generic(patch_, leaf.uv);
-    float k = leaf.scale;
-    return LimitFrame(f.p, k * f.pu, k * f.pv, k * k * f.puu, k * k * f.puv, k * k * f.pvv);
+// The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it.
+LimitFrame patchFrame(bool isTexture, Patch patch_, vec2 uv) {
+    uint type = isTexture ? patch_.texType : patch_.type;
+    uint param1 = isTexture ? patch_.texParam1 : patch_.param1;
+    uint firstPoint = isTexture ? patch_.texFirstPoint : patch_.firstPoint;
+#ifdef RELIEF_TRIANGLES
+    return generic(isTexture, type, param1, firstPoint, uv);
+#else
+#ifdef RELIEF_GENERIC_BASIS
+    if (kGenericBasis) return generic(isTexture, type, param1, firstPoint, uv);
+#endif
+    if (type == kPatchRegular) {
+        if (isTexture) return regularTexture(firstPoint, param1, uv);
+        return regular(firstPoint, param1, uv);
+    }
+    if (type == kPatchQuads) return bilinear(isTexture, firstPoint, uv);
+    return gregory(isTexture, firstPoint, uv);
+#endif
 }
 
-LimitFrame limit(uint face, vec2 uv) { return limitInLeaf(findLeaf(face, uv)); }
+// Derivatives by the face's (u,v) from those by the patch's own.
+LimitFrame byFace(LimitFrame f, float k) { return LimitFrame(f.p, k * f.pu, k * f.pv, k * k * f.puu, k * k * f.puv, k * k * f.pvv); }
 
-// --- texture coordinates --------------------------------------------------------------------------------------------
-
-// Constant 1: the cage has texture coordinates; else a face's own (u,v) stand in for them.
-layout(constant_id = 1) const bool kHasTexCoords = false;
-
-TexFrame bicubicTexture(uint firstPoint, uint boundary, vec2 uv) {
-    CurveWeights u, v;
-    bicubicWeights(uv, boundary, u, v);
-    TexFrame f = TexFrame(vec2(0), mat2(0));
-    for (uint row = 0u; row < 4u; ++row) {
-        vec2 x = vec2(0), xu = vec2(0);
-        for (uint column = 0u; column < 4u; ++column) {
-            vec2 c = scene.texPoints.at[scene.texPatchPoints.at[firstPoint + 4u * row + column]];
-            x += u.w[column] * c;
-            xu += u.d[column] * c;
-        }
-        f.st += v.w[row] * x;
-        f.jacobian[0] += v.w[row] * xu;
-        f.jacobian[1] += v.d[row] * x;
-    }
-    return f;
-}
-
-TexFrame textureInLeaf(Leaf leaf) {
-    Patch patch_ = scene.patches.at[leaf.patchIndex];
-    TexFrame f = TexFrame(vec2(0), mat2(0));
-    if (patch_.texType == kPatchRegular && !kGenericBasis) {
-        f = bicubicTexture(patch_.texFirstPoint, boundaryMask(patch_.texParam1), leaf.uv);
-    } else {
-        Basis w = genericBasis(patch_.texType, patch_.texParam1, leaf.uv);
-        for (int i = 0; i < w.count; ++i) {
-            vec2 c = scene.texPoints.at[scene.texPatchPoints.at[patch_.texFirstPoint + uint(i)]];
-            f.st += w.p[i] * c;
-            f.jacobian[0] += w.du[i] * c;
-            f.jacobian[1] += w.dv[i] * c;
-        }
-    }
-    f.jacobian *= leaf.scale;
-    return f;
+LimitFrame limit(uint face, vec2 uv) {
+    Leaf leaf = findLeaf(face, uv);
+    return byFace(patchFrame(false, fetchPatch(leaf.patchIndex), leaf.uv), leaf.scale);
 }
 #endif

@@ -5,14 +5,16 @@
 #include "varyings.glsl"
 
 // A dense triangle mesh as it is: the opponent of every comparison.
+layout(set = 0, binding = kBindMesh) uniform samplerBuffer meshTexels;
+
 layout(constant_id = 1) const bool kHasTexCoords = false;
 
 void main() {
-    vec3 position = scene.meshPositions.at[gl_VertexIndex];
+    vec3 position = texelFetch(meshTexels, 2 * gl_VertexIndex).xyz;
     gl_Position = (drawsShadow != 0u ? scene.worldToShadow : scene.worldToClip) * vec4(position, 1.0);
     vPosition = position;
-    vNormal = scene.meshNormals.at[gl_VertexIndex];
-    vTexCoord = kHasTexCoords ? scene.meshTexCoords.at[gl_VertexIndex] : vec2(0);
+    vNormal = texelFetch(meshTexels, 2 * gl_VertexIndex + 1).xyz;
+    vTexCoord = kHasTexCoords ? texelFetch(texPointTexels, gl_VertexIndex).xy : vec2(0);
     vHeight = 0.0;
     vFace = uint(gl_VertexIndex) / 64u;
     vRate = 1u;

@@ -9,7 +9,8 @@ layout(location = 0) patch out uint face;
 void main() {
     face = faceIn[0];
     uint rates[kSideCount];
-    for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(scene.faces.at[face].sides[side]);
+    Face record = fetchFace(face);
+    for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]);
 #ifdef RELIEF_TRIANGLES
     // Barycentric (x,y,z) belong to corners 0, 1, 2; outer level i is the side where coordinate i is zero.
     gl_TessLevelOuter[0] = float(rates[1]);

@@ -4,9 +4,9 @@
 #include "emit.glsl"
 
 #ifdef RELIEF_TRIANGLES
-layout(triangles, equal_spacing, ccw) in;
+layout(triangles, equal_spacing, cw) in;
 #else
-layout(quads, equal_spacing, ccw) in;
+layout(quads, equal_spacing, cw) in;
 #endif
 
 layout(location = 0) patch in uint face;
@@ -41,9 +41,14 @@ void main() {
     Place place = insidePlace(face, uv);
     if (side != kInside) {
         // The tessellator's coordinate only says which sample of the edge this is.
-        uint entry = scene.faces.at[face].sides[side];
+        uint entry = fetchFace(face).sides[side];
         uint n = sideRate(entry);
         place = sidePlace(entry, uint(round(x * float(n))), n);
     }
-    emitVertex(face, uv, place);
+#ifdef RELIEF_TRIANGLES
+    float rate = gl_TessLevelInner[0];
+#else
+    float rate = max(gl_TessLevelInner[0], gl_TessLevelInner[1]);
+#endif
+    emitVertex(face, uv, place, uint(rate));
 }

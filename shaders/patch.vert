@@ -5,4 +5,4 @@
 // One point a face: its number travels to the control stage.
 layout(location = 0) flat out uint face;
 
-void main() { face = scene.drawFaces.at[gl_VertexIndex]; }
+void main() { face = texelFetch(drawFaceTexels, gl_VertexIndex).x; }

@@ -34,19 +34,19 @@ vec2 touchPoint(Touch touch, float t) { return sidePoint(touch.side, touch.start
 Place insidePlace(uint face, vec2 uv) { return Place(Touch(face, 0u, 0.0, 0.0), 0u, 0u, 0.0, true, uv); }
 
 Place cornerPlace(uint corner) {
-    Corner c = scene.corners.at[corner];
+    Corner c = fetchCorner(corner);
     return Place(c.owner, c.firstTouch, c.touchCount, 0.0, false, vec2(0));
 }
 
 // Sample k of n along an edge, in the edge's own direction.
 Place edgePlace(uint edge, uint k, uint n) {
-    Edge e = scene.edges.at[edge];
+    Edge e = fetchEdge(edge);
     if (k == 0u || k == n) return cornerPlace(e.corners[k == 0u ? 0 : 1]);
     return Place(e.owner, e.firstTouch, e.touchCount, float(k) / float(n), false, vec2(0));
 }
 
 uint sideRate(uint sideEntry) {
-    uint rate = scene.edgeRates.at[sideEntry & kSideEdgeMask];
+    uint rate = edgeRate(sideEntry & kSideEdgeMask);
     return (sideEntry & kSideSplit) != 0u ? 2u * rate : rate;
 }
 

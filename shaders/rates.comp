@@ -25,12 +25,12 @@ void main() {
     uint edge = gl_GlobalInvocationID.x;
     if (edge >= scene.edgeCount) return;
     // The halves of an edge beside an n-gon share the larger length, so that a quad's side divides evenly.
-    uint partner = scene.edges.at[edge].partner;
+    uint partner = fetchEdge(edge).partner;
     float pixels = 0.0;
     for (uint i = 0u; i < (partner == edge ? 1u : 2u); ++i)
         pixels = max(pixels, pixelLength(i == 0u ? edge : partner));
     float rate = ceil(pixels / scene.edgePixels);
     uint limit = partner == edge ? scene.maxRate : max(scene.maxRate / 2u, 1u);
     // NaN compares false: it becomes 1, never a missing face.
-    scene.edgeRates.at[edge] = rate > 1.0 ? uint(min(rate, float(limit))) : 1u;
+    scene.edgeRateTarget.at[edge] = rate > 1.0 ? uint(min(rate, float(limit))) : 1u;
 }

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#define RELIEF_GENERIC_BASIS
 #include "displaced.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,6 @@
-// What every pass is given: one Scene in a buffer, whose address is the first push constant.
+// What every pass is given: one Scene in a uniform buffer, and the surface in texel buffers. Texel fetches are gathered
+// for all lanes at once on CPU drivers, where a load through an address is a loop over the lanes (5 to 10 times slower),
+// and go through the texture caches of GPUs.
 #ifndef RELIEF_SHARED_SCENE_H
 #define RELIEF_SHARED_SCENE_H
 
@@ -8,22 +10,36 @@
 #ifdef __cplusplus
 namespace relief {
 #define RELIEF_ADDRESS(type) std::uint64_t
-using ivec4 = glm::ivec4;
 #else
 #define RELIEF_ARRAY(name, type)                                                                                       \
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name { type at[]; };
 #define RELIEF_ADDRESS(type) type
-RELIEF_ARRAY(Faces, Face)
-RELIEF_ARRAY(Patches, Patch)
-RELIEF_ARRAY(Edges, Edge)
-RELIEF_ARRAY(Corners, Corner)
-RELIEF_ARRAY(Touches, Touch)
 RELIEF_ARRAY(Words, uint)
-RELIEF_ARRAY(Points, vec3)
-RELIEF_ARRAY(TexPoints, vec2)
 RELIEF_ARRAY(Queries, SampleQuery)
 RELIEF_ARRAY(Results, SampleResult)
 #endif
+
+// Set 0.
+RELIEF_CONSTANT uint kBindScene = 0u;
+RELIEF_CONSTANT uint kBindHeight = 1u;       // sampled images
+RELIEF_CONSTANT uint kBindAlbedo = 2u;
+RELIEF_CONSTANT uint kBindEnvironment = 3u;
+RELIEF_CONSTANT uint kBindShadow = 4u;
+RELIEF_CONSTANT uint kBindRecords = 5u;      // texel buffers: Face, Patch, Edge, Corner and Touch, each padded to texels
+RELIEF_CONSTANT uint kBindWords = 6u;        // tree, patch points, texture patch points
+RELIEF_CONSTANT uint kBindPoints = 7u;
+RELIEF_CONSTANT uint kBindTexPoints = 8u;
+RELIEF_CONSTANT uint kBindEdgeRates = 9u;    // segments an edge: written per frame
+RELIEF_CONSTANT uint kBindDrawFaces = 10u;   // faces to draw in order: written per frame
+RELIEF_CONSTANT uint kBindMesh = 11u;        // a dense mesh: positions and normals in turn; its texture coordinates
+RELIEF_CONSTANT uint kBindCount = 12u;       // are kBindTexPoints
+
+// Texels of four words that a record takes in kBindRecords.
+RELIEF_CONSTANT uint kFaceTexels = 2u;
+RELIEF_CONSTANT uint kPatchTexels = 2u;
+RELIEF_CONSTANT uint kEdgeTexels = 3u;
+RELIEF_CONSTANT uint kCornerTexels = 2u;
+RELIEF_CONSTANT uint kTouchTexels = 1u;
 
 // --show
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -40,27 +56,19 @@ RELIEF_CONSTANT uint kNormalFirstOrder = 1u;
 RELIEF_CONSTANT uint kNormalFull = 2u;
 
 struct Scene {
-    // The surface (shared/surface.h).
-    RELIEF_ADDRESS(Faces) faces;
-    RELIEF_ADDRESS(Words) tree;
-    RELIEF_ADDRESS(Patches) patches;
-    RELIEF_ADDRESS(Words) patchPoints;
-    RELIEF_ADDRESS(Points) points;
-    RELIEF_ADDRESS(Words) texPatchPoints;
-    RELIEF_ADDRESS(TexPoints) texPoints;
-    RELIEF_ADDRESS(Edges) edges;
-    RELIEF_ADDRESS(Corners) corners;
-    RELIEF_ADDRESS(Touches) touches;
-    // Segments an edge, and the faces to draw in order: written per frame.
-    RELIEF_ADDRESS(Words) edgeRates;
-    RELIEF_ADDRESS(Words) drawFaces;
-    // A dense mesh, where one is drawn instead.
-    RELIEF_ADDRESS(Points) meshPositions;
-    RELIEF_ADDRESS(Points) meshNormals;
-    RELIEF_ADDRESS(TexPoints) meshTexCoords;
-    // Single points, where they are asked for.
+    // Written through addresses: rates.comp and sample.comp.
+    RELIEF_ADDRESS(Words) edgeRateTarget;
     RELIEF_ADDRESS(Queries) sampleQueries;
     RELIEF_ADDRESS(Results) sampleResults;
+
+    // Where each array starts: texels of kBindRecords, words of kBindWords.
+    uint firstFace;
+    uint firstPatch;
+    uint firstEdge;
+    uint firstCorner;
+    uint firstTouch;
+    uint firstPatchPoint;    // the tree is at 0
+    uint firstTexPatchPoint;
 
     // h = heightScale * (texel - heightMid) in cage units; a map of 0 x 0 is no displacement.
     ivec2 mapSize;
@@ -92,7 +100,7 @@ struct Scene {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Scene) % 8 == 0 && offsetof(Scene, mapSize) == 17 * 8 && offsetof(Scene, worldToClip) == 17 * 8 + 40);
+static_assert(offsetof(Scene, firstFace) == 24 && offsetof(Scene, worldToClip) == 24 + 28 + 40);
 } // namespace relief
 #endif
 #endif

@@ -40,8 +40,8 @@ class Model {
 public:
     Model(Device& device, const ModelDesc& desc);
 
-    /// Fills the model's part of a scene.
-    void describe(Scene& scene) const;
+    /// Fills the model's part of a scene and of its bindings (kBind...; the samplers of images are not touched).
+    void describe(Scene& scene, std::span<Binding> bindings) const;
     /// Segments of every edge when a cage edge has `rate`: half of it, rounded up, for the halves of edges beside n-gons.
     [[nodiscard]] std::vector<std::uint32_t> uniformRates(std::uint32_t rate) const;
 
@@ -55,8 +55,6 @@ public:
     [[nodiscard]] bool hasTexCoords() const { return hasTexCoords_; }
     [[nodiscard]] bool hasHeight() const { return mapSize_.x > 0; }
     [[nodiscard]] bool hasAlbedoMap() const { return hasAlbedo_; }
-    [[nodiscard]] const Texture& heightMap() const { return heightMap_; }
-    [[nodiscard]] const Texture& albedoMap() const { return albedoMap_; }
     [[nodiscard]] Wrap wrap() const { return wrap_; }
     /// Bytes resident on the device: buffers and textures.
     [[nodiscard]] std::uint64_t byteCount() const { return byteCount_; }
@@ -65,13 +63,12 @@ private:
     void uploadSurface(Device& device, const ModelDesc& desc);
     void uploadDense(Device& device, const DenseMesh& mesh);
     void uploadMaps(Device& device, const ModelDesc& desc);
-    template <typename T>
-    void keep(Device& device, const char* name, std::span<const T> data, std::uint64_t Scene::*address);
 
-    std::vector<Buffer> buffers_;
-    std::vector<std::pair<std::uint64_t Scene::*, std::uint64_t>> addresses_;
+    TexelBuffer records_, words_, points_, texPoints_, mesh_;
     Buffer indices_;
     Texture heightMap_, albedoMap_;
+    std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstTouch_ = 0;
+    std::uint32_t firstPatchPoint_ = 0, firstTexPatchPoint_ = 0;
     std::vector<Face> faces_;
     std::vector<bool> edgeIsHalf_;
     std::uint32_t indexCount_ = 0;

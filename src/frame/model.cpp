@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "frame/frame.h"
 
@@ -53,7 +54,18 @@ AlbedoMips albedoMips(const Image& image) {
     return mips;
 }
 
-Texture whitePixel(Device& device, VkFormat format) {
+/// Appends records as words, each padded to its texels; returns the texel that they start at.
+template <typename Record, std::uint32_t kTexels>
+std::uint32_t appendRecords(std::vector<std::uint32_t>& words, const std::vector<Record>& records) {
+    static_assert(sizeof(Record) <= 16 * kTexels);
+    const std::size_t first = words.size();
+    words.resize(first + records.size() * 4 * kTexels);
+    for (std::size_t i = 0; i < records.size(); ++i)
+        std::memcpy(&words[first + i * 4 * kTexels], &records[i], sizeof(Record));
+    return std::uint32_t(first / 4);
+}
+
+Texture emptyTexture(Device& device, VkFormat format) {
     const std::byte one[4] = {std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}};
     return uploadTexture(device, {.name = "empty", .format = format}, one, 4);
 }
@@ -68,25 +80,28 @@ Model::Model(Device& device, const ModelDesc& desc) {
     byteCount_ = device.allocatedBytes() - before;
 }
 
-template <typename T>
-void Model::keep(Device& device, const char* name, std::span<const T> data, std::uint64_t Scene::*address) {
-    buffers_.push_back(uploadArray(device, name, data));
-    addresses_.emplace_back(address, buffers_.back().address);
-}
-
 void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     const Surface& s = *desc.surface;
-    const std::vector<vec3> points = refinePoints(s, desc.cagePositions);
-    keep<Face>(device, "faces", s.faces, &Scene::faces);
-    keep<std::uint32_t>(device, "tree", s.tree, &Scene::tree);
-    keep<Patch>(device, "patches", s.patches, &Scene::patches);
-    keep<std::uint32_t>(device, "patch points", s.patchPoints, &Scene::patchPoints);
-    keep<vec3>(device, "points", points, &Scene::points);
-    keep<std::uint32_t>(device, "texture patch points", s.texPatchPoints, &Scene::texPatchPoints);
-    keep<vec2>(device, "texture points", s.texPoints, &Scene::texPoints);
-    keep<Edge>(device, "edges", s.edges, &Scene::edges);
-    keep<Corner>(device, "corners", s.corners, &Scene::corners);
-    keep<Touch>(device, "touches", s.touches, &Scene::touches);
+    std::vector<std::uint32_t> records;
+    firstFace_ = appendRecords<Face, kFaceTexels>(records, s.faces);
+    firstPatch_ = appendRecords<Patch, kPatchTexels>(records, s.patches);
+    firstEdge_ = appendRecords<Edge, kEdgeTexels>(records, s.edges);
+    firstCorner_ = appendRecords<Corner, kCornerTexels>(records, s.corners);
+    firstTouch_ = appendRecords<Touch, kTouchTexels>(records, s.touches);
+    records_ = uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records)));
+
+    std::vector<std::uint32_t> words = s.tree;
+    firstPatchPoint_ = std::uint32_t(words.size());
+    words.insert(words.end(), s.patchPoints.begin(), s.patchPoints.end());
+    firstTexPatchPoint_ = std::uint32_t(words.size());
+    words.insert(words.end(), s.texPatchPoints.begin(), s.texPatchPoints.end());
+    words_ = uploadTexels(device, {.name = "words"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(words)));
+
+    std::vector<vec4> points;
+    for (const vec3& p : refinePoints(s, desc.cagePositions)) points.emplace_back(p, 1.0f);
+    points_ = uploadTexels(device, {.name = "points"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(points)));
+    texPoints_ = uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT, std::as_bytes(std::span(s.texPoints)));
+    mesh_ = uploadTexels(device, {.name = "no mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
     faces_ = s.faces;
     sideCount_ = s.sideCount;
     hasTexCoords_ = s.hasTexCoords();
@@ -101,9 +116,17 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
 }
 
 void Model::uploadDense(Device& device, const DenseMesh& mesh) {
-    keep<vec3>(device, "mesh positions", mesh.positions, &Scene::meshPositions);
-    keep<vec3>(device, "mesh normals", mesh.normals, &Scene::meshNormals);
-    keep<vec2>(device, "mesh texture coordinates", mesh.texCoords, &Scene::meshTexCoords);
+    std::vector<vec4> vertices;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        vertices.emplace_back(mesh.positions[i], 1.0f);
+        vertices.emplace_back(mesh.normals[i], 0.0f);
+    }
+    mesh_ = uploadTexels(device, {.name = "mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(vertices)));
+    texPoints_ = uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT,
+                              std::as_bytes(std::span(mesh.texCoords)));
+    points_ = uploadTexels(device, {.name = "no points"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
+    records_ = uploadTexels(device, {.name = "no records"}, VK_FORMAT_R32G32B32A32_UINT, {});
+    words_ = uploadTexels(device, {.name = "no words"}, VK_FORMAT_R32_UINT, {});
     indices_ = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     indexCount_ = std::uint32_t(mesh.indices.size());
     hasTexCoords_ = !mesh.texCoords.empty();
@@ -120,7 +143,7 @@ void Model::uploadMaps(Device& device, const ModelDesc& desc) {
         heightMid_ = float(map.mid), heightScale_ = float(map.scale), heightReach_ = float(map.reach());
         wrap_ = map.wrap;
     } else {
-        heightMap_ = whitePixel(device, VK_FORMAT_R32_SFLOAT);
+        heightMap_ = emptyTexture(device, VK_FORMAT_R32_SFLOAT);
     }
     if (desc.albedo != nullptr) {
         const AlbedoMips mips = albedoMips(*desc.albedo);
@@ -130,12 +153,25 @@ void Model::uploadMaps(Device& device, const ModelDesc& desc) {
                                    std::as_bytes(std::span(mips.bytes)), 4);
         hasAlbedo_ = true;
     } else {
-        albedoMap_ = whitePixel(device, VK_FORMAT_R8G8B8A8_SRGB);
+        albedoMap_ = emptyTexture(device, VK_FORMAT_R8G8B8A8_SRGB);
     }
 }
 
-void Model::describe(Scene& scene) const {
-    for (const auto& [field, address] : addresses_) scene.*field = address;
+void Model::describe(Scene& scene, std::span<Binding> bindings) const {
+    scene.firstFace = firstFace_;
+    scene.firstPatch = firstPatch_;
+    scene.firstEdge = firstEdge_;
+    scene.firstCorner = firstCorner_;
+    scene.firstTouch = firstTouch_;
+    scene.firstPatchPoint = firstPatchPoint_;
+    scene.firstTexPatchPoint = firstTexPatchPoint_;
+    bindings[kBindRecords].texels = records_.view.get();
+    bindings[kBindWords].texels = words_.view.get();
+    bindings[kBindPoints].texels = points_.view.get();
+    bindings[kBindTexPoints].texels = texPoints_.view.get();
+    bindings[kBindMesh].texels = mesh_.view.get();
+    bindings[kBindHeight].view = heightMap_.view.get();
+    bindings[kBindAlbedo].view = albedoMap_.view.get();
     scene.mapSize = mapSize_;
     scene.heightMid = heightMid_;
     scene.heightScale = heightScale_;

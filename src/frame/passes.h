@@ -7,13 +7,12 @@
 namespace relief {
 
 struct PushConstants {
-    std::uint64_t scene = 0;
     std::uint32_t passNumber = 0;
     std::uint32_t drawsShadow = 0;
 };
 
-constexpr std::uint32_t kTextureCount = 4; ///< height, albedo, environment, shadow
-constexpr PipelineLayoutDesc kPassLayout{kTextureCount, sizeof(PushConstants)};
+/// Set 0 of every pass (kBind...).
+PipelineLayoutDesc passLayout();
 
 /// Specialization constants 0..6 in the order of the shaders' constant_id.
 struct ShaderConstants {
@@ -32,7 +31,10 @@ inline void pushConstants(VkCommandBuffer commands, const Pipeline& pipeline, co
     push(commands, pipeline, std::as_bytes(std::span(&constants, 1)));
 }
 
-/// A device buffer that holds one Scene; written inside a command buffer.
+/// Texel buffers that change from frame to frame.
+TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words);
+
+/// A uniform buffer that holds one Scene; written inside a command buffer.
 Buffer makeSceneBuffer(Device& device);
 void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene);
 

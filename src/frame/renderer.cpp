@@ -124,13 +124,17 @@ struct Renderer::Parts {
           repeating(makeSampler(device, {})),
           clamped(makeSampler(device, {.wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                        .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-          around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})), timer(device, 8) {}
+          around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+          nearest(makeSampler(device, {.filter = VK_FILTER_NEAREST, .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                       .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+          noWords(uploadWords(device, "nothing", {})), timer(device, 8) {}
 
     Device& device;
     RendererDesc desc;
     Targets targets;
     Buffer scene;
-    Owned<VkSampler> repeating, clamped, around;
+    Owned<VkSampler> repeating, clamped, around, nearest;
+    TexelBuffer noWords;
     Timer timer;
     std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
     std::map<std::pair<std::uint32_t, bool>, Buffer> grids;   ///< index buffers by rate and shape
@@ -143,9 +147,11 @@ struct Renderer::Parts {
         const Model& model;
         const RenderOptions& options;
         Scene scene{};
-        Buffer edgeRates, drawFaces, draws;
+        Binding bindings[kBindCount] = {};
+        TexelBuffer edgeRates, drawFaces;
+        Buffer draws;
         DrawPlan plan;
-        TextureSet textures;
+        BindingSet set;
     };
 
     enum class Pass { rates, shadow, color, lines };
@@ -155,6 +161,7 @@ struct Renderer::Parts {
     std::vector<Stage> stagesOf(const Frame& frame, Pass pass) const;
     void useEnvironment(const Lighting& lighting, Scene& scene);
     void describeView(Frame& frame);
+    BindingSet bindingSet(const Frame& frame, Pass pass);
     void makeEdgeRates(Frame& frame, FrameStats& stats);
     void makePlan(Frame& frame);
     const Buffer& gridOf(std::uint32_t rate, bool isTriangles);
@@ -215,14 +222,14 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
 
     if (pass == Pass::rates) {
         const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("rates.comp", frame.model.isTriangles())};
-        return pipelines[key] = makeCompute(device, {.name = "rates", .stage = stage, .constants = constants, .layout = kPassLayout});
+        return pipelines[key] = makeCompute(device, {.name = "rates", .stage = stage, .constants = constants, .layout = passLayout()});
     }
     const bool isPatches = !frame.model.isDense() && frame.options.path == Path::tessellation;
     GraphicsDesc graphics;
     graphics.name = pass == Pass::shadow ? "shadow" : pass == Pass::color ? "color" : "lines";
     graphics.stages = stagesOf(frame, pass);
     graphics.constants = constants;
-    graphics.layout = kPassLayout;
+    graphics.layout = passLayout();
     graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     graphics.depthFormat = kDepthFormat;
     if (pass != Pass::shadow) {
@@ -262,7 +269,7 @@ void Renderer::Parts::useEnvironment(const Lighting& lighting, Scene& sceneData)
 void Renderer::Parts::describeView(Frame& frame) {
     const RenderOptions& o = frame.options;
     Scene& s = frame.scene;
-    frame.model.describe(s);
+    frame.model.describe(s, frame.bindings);
     useEnvironment(o.lighting, s);
     s.worldToClip = perspectiveMatrix(o.camera, double(desc.width) / desc.height);
     s.eye = vec3(o.camera.eye);
@@ -280,12 +287,18 @@ void Renderer::Parts::describeView(Frame& frame) {
     s.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
     s.shadowSoftness = 3.0f / float(desc.shadowSide);
 
-    const TextureBinding bindings[kTextureCount] = {
-        {frame.model.heightMap().view.get(), repeating.get()},
-        {frame.model.albedoMap().view.get(), frame.model.wrap() == Wrap::repeat ? repeating.get() : clamped.get()},
-        {environment.view.get(), around.get()},
-        {targets.shadow.view.get(), clamped.get()}};
-    frame.textures = makeTextureSet(device, pipelineOf(frame, Pass::color), bindings);
+    const VkSampler wrap = frame.model.wrap() == Wrap::repeat ? repeating.get() : clamped.get();
+    frame.bindings[kBindScene].uniform = scene.handle.get();
+    frame.bindings[kBindHeight].sampler = frame.bindings[kBindAlbedo].sampler = wrap;
+    frame.bindings[kBindEnvironment].view = environment.view.get();
+    frame.bindings[kBindEnvironment].sampler = around.get();
+    frame.bindings[kBindShadow].view = targets.shadow.view.get();
+    frame.bindings[kBindShadow].sampler = nearest.get();
+    frame.bindings[kBindEdgeRates].texels = frame.bindings[kBindDrawFaces].texels = noWords.view.get();
+}
+
+BindingSet Renderer::Parts::bindingSet(const Frame& frame, Pass pass) {
+    return makeBindingSet(device, pipelineOf(frame, pass), passLayout(), frame.bindings);
 }
 
 void Renderer::Parts::makeEdgeRates(Frame& frame, FrameStats& stats) {
@@ -302,33 +315,35 @@ void Renderer::Parts::makeEdgeRates(Frame& frame, FrameStats& stats) {
     std::vector<std::uint32_t> rates(edgeCount);
     if (frame.options.rate) {
         rates = frame.model.uniformRates(std::uint32_t(*frame.options.rate));
-        frame.edgeRates = uploadArray<std::uint32_t>(device, "edge rates", rates);
-        frame.scene.edgeRates = frame.edgeRates.address;
+        frame.edgeRates = uploadWords(device, "edge rates", rates);
     } else {
-        frame.edgeRates = makeBuffer(device, {.name = "edge rates", .bytes = edgeCount * 4,
-                                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-        frame.scene.edgeRates = frame.edgeRates.address;
+        frame.edgeRates = makeTexels(device, {.name = "edge rates", .bytes = edgeCount * 4,
+                                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+                                     VK_FORMAT_R32_UINT);
+        frame.scene.edgeRateTarget = frame.edgeRates.buffer.address;
         frame.scene.maxRate = limit;
         const Pipeline& pipeline = pipelineOf(frame, Pass::rates);
+        const BindingSet set = bindingSet(frame, Pass::rates);
         device.run([&](VkCommandBuffer commands) {
             timer.reset(commands);
             writeScene(commands, scene, frame.scene);
             timer.stamp(commands);
-            bind(commands, pipeline, &frame.textures);
-            pushConstants(commands, pipeline, {.scene = scene.address});
+            bind(commands, pipeline, set);
+            pushConstants(commands, pipeline, {});
             vkCmdDispatch(commands, std::uint32_t((edgeCount + 63) / 64), 1, 1);
             timer.stamp(commands);
         });
         const std::vector<double> times = timer.intervals();
         if (!times.empty()) stats.rateMs = times[0];
-        downloadBytes(device, frame.edgeRates, std::as_writable_bytes(std::span(rates)));
+        downloadBytes(device, frame.edgeRates.buffer, std::as_writable_bytes(std::span(rates)));
     }
+    frame.bindings[kBindEdgeRates].texels = frame.edgeRates.view.get();
     frame.plan = isGrid ? planGrids(frame.model, rates) : planPatches(frame.model, rates, traits.tessellatedVerticesPerDraw);
 }
 
 void Renderer::Parts::makePlan(Frame& frame) {
-    frame.drawFaces = uploadArray<std::uint32_t>(device, "faces to draw", frame.plan.faces);
-    frame.scene.drawFaces = frame.drawFaces.address;
+    frame.drawFaces = uploadWords(device, "faces to draw", frame.plan.faces);
+    frame.bindings[kBindDrawFaces].texels = frame.drawFaces.view.get();
     if (frame.options.path == Path::grid) return;
     std::vector<VkDrawIndirectCommand> calls;
     for (const DrawBatch& batch : frame.plan.batches) calls.push_back({batch.faceCount, 1, batch.firstFace, 0});
@@ -344,8 +359,8 @@ const Buffer& Renderer::Parts::gridOf(std::uint32_t rate, bool isTriangles) {
 
 void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pass) {
     const Pipeline& pipeline = pipelineOf(frame, pass);
-    bind(commands, pipeline, &frame.textures);
-    PushConstants constants{.scene = scene.address, .drawsShadow = pass == Pass::shadow ? 1u : 0u};
+    bind(commands, pipeline, frame.set);
+    PushConstants constants{.drawsShadow = pass == Pass::shadow ? 1u : 0u};
     pushConstants(commands, pipeline, constants);
     if (frame.model.isDense()) {
         vkCmdBindIndexBuffer(commands, frame.model.indices().handle.get(), 0, VK_INDEX_TYPE_UINT32);
@@ -449,6 +464,7 @@ Picture Renderer::render(const Model& model, const RenderOptions& options) {
             for (const DrawBatch& batch : frame.plan.batches) parts.gridOf(batch.rate, model.isTriangles());
     }
     const bool castsShadows = parts.castsShadows(frame);
+    frame.set = parts.bindingSet(frame, Parts::Pass::color);
     parts.device.run([&](VkCommandBuffer commands) {
         parts.timer.reset(commands);
         writeScene(commands, parts.scene, frame.scene);

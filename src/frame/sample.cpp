@@ -16,9 +16,22 @@ void checkQuery(const Model& model, const SampleQuery& query, std::size_t row) {
 
 } // namespace
 
+PipelineLayoutDesc passLayout() {
+    PipelineLayoutDesc layout{std::vector<VkDescriptorType>(kBindCount, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER),
+                              sizeof(PushConstants)};
+    layout.bindings[kBindScene] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
+        layout.bindings[image] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    return layout;
+}
+
+TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words) {
+    return uploadTexels(device, {.name = name}, VK_FORMAT_R32_UINT, std::as_bytes(words));
+}
+
 Buffer makeSceneBuffer(Device& device) {
     return makeBuffer(device, {.name = "scene", .bytes = sizeof(Scene),
-                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+                               .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
 }
 
 void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene) {
@@ -33,24 +46,29 @@ std::vector<SampleResult> sampleSurface(Device& device, const Model& model, std:
                                     .hasHeight = model.hasHeight(), .normal = normal, .wantsTexCoords = true};
     const Pipeline pipeline = makeCompute(
         device, {.name = "sample", .stage = {VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("sample.comp", model.isTriangles())},
-                 .constants = constants.values(), .layout = kPassLayout});
-    const Owned<VkSampler> sampler = makeSampler(device, {});
-    const TextureBinding height{model.heightMap().view.get(), sampler.get()};
-    const TextureSet textures = makeTextureSet(device, pipeline, std::vector<TextureBinding>(kTextureCount, height));
-
+                 .constants = constants.values(), .layout = passLayout()});
     const Buffer in = uploadArray(device, "queries", queries);
     std::vector<SampleResult> results(queries.size());
     const Buffer out = makeBuffer(device, {.name = "results", .bytes = results.size() * sizeof(SampleResult),
                                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     const Buffer sceneBuffer = makeSceneBuffer(device);
+    const Owned<VkSampler> sampler = makeSampler(device, {});
+    const TexelBuffer none = uploadWords(device, "nothing", {});
     Scene scene{};
-    model.describe(scene);
+    Binding bindings[kBindCount];
+    model.describe(scene, bindings);
     scene.sampleQueries = in.address;
     scene.sampleResults = out.address;
+    bindings[kBindScene].uniform = sceneBuffer.handle.get();
+    bindings[kBindEnvironment].view = bindings[kBindShadow].view = bindings[kBindAlbedo].view;
+    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
+        bindings[image].sampler = sampler.get();
+    bindings[kBindEdgeRates].texels = bindings[kBindDrawFaces].texels = none.view.get();
+    const BindingSet set = makeBindingSet(device, pipeline, passLayout(), bindings);
     device.run([&](VkCommandBuffer commands) {
         writeScene(commands, sceneBuffer, scene);
-        bind(commands, pipeline, &textures);
-        pushConstants(commands, pipeline, {sceneBuffer.address, std::uint32_t(queries.size())});
+        bind(commands, pipeline, set);
+        pushConstants(commands, pipeline, {.passNumber = std::uint32_t(queries.size())});
         vkCmdDispatch(commands, std::uint32_t((queries.size() + 63) / 64), 1, 1);
     });
     downloadBytes(device, out, std::as_writable_bytes(std::span(results)));

@@ -128,7 +128,7 @@ struct Buffer {
     std::uint64_t bytes = 0;
 };
 
-/// A buffer of at least 4 bytes (empty arrays are bound as well), with an address.
+/// A buffer of at least 16 bytes (empty arrays are bound as well), with an address.
 Buffer makeBuffer(Device& device, const BufferDesc& desc);
 
 /// A device buffer holding `data`, copied through a staging buffer.
@@ -139,6 +139,14 @@ Buffer uploadArray(Device& device, const std::string& name, std::span<const T> d
                    VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {
     return uploadBytes(device, {.name = name, .bytes = data.size_bytes(), .usage = usage}, std::as_bytes(data));
 }
+
+/// A buffer seen as texels of a format, with the view that shaders fetch from.
+struct TexelBuffer {
+    Buffer buffer;
+    Owned<VkBufferView> view;
+};
+TexelBuffer makeTexels(Device& device, const BufferDesc& desc, VkFormat format);
+TexelBuffer uploadTexels(Device& device, const BufferDesc& desc, VkFormat format, std::span<const std::byte> data);
 
 /// Copies a device buffer made with VK_BUFFER_USAGE_TRANSFER_SRC_BIT back.
 void downloadBytes(Device& device, const Buffer& buffer, std::span<std::byte> data);
@@ -164,6 +172,7 @@ Texture makeTexture(Device& device, const TextureDesc& desc);
 Texture uploadTexture(Device& device, TextureDesc desc, std::span<const std::byte> mips, std::uint32_t texelBytes);
 
 struct SamplerDesc {
+    VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode wrapU = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     VkSamplerAddressMode wrapV = VK_SAMPLER_ADDRESS_MODE_REPEAT;
 };
@@ -174,9 +183,9 @@ struct Stage {
     std::span<const std::uint32_t> code;   ///< SPIR-V words
 };
 
-/// What every pipeline is given: `textureCount` combined image samplers in set 0 and a block of push constants.
+/// What every pipeline is given: the kinds of set 0's bindings 0, 1, 2, ... and a block of push constants.
 struct PipelineLayoutDesc {
-    std::uint32_t textureCount = 0;
+    std::vector<VkDescriptorType> bindings;
     std::uint32_t pushBytes = 0;
 };
 
@@ -209,19 +218,23 @@ struct Pipeline {
 Pipeline makeGraphics(Device& device, const GraphicsDesc& desc);
 Pipeline makeCompute(Device& device, const ComputeDesc& desc);
 
-struct TextureBinding {
-    VkImageView view;
-    VkSampler sampler;
+/// One thing bound: an image with its sampler, a view of texels in a buffer, or a uniform buffer.
+struct Binding {
+    VkImageView view = VK_NULL_HANDLE;
+    VkSampler sampler = VK_NULL_HANDLE;
+    VkBufferView texels = VK_NULL_HANDLE;
+    VkBuffer uniform = VK_NULL_HANDLE;
 };
 
-/// Set 0 for pipelines whose layout has as many textures.
-struct TextureSet {
+/// Set 0 of pipelines with that layout.
+struct BindingSet {
     Owned<VkDescriptorPool> pool;
     VkDescriptorSet handle = VK_NULL_HANDLE;
 };
-TextureSet makeTextureSet(Device& device, const Pipeline& pipeline, std::span<const TextureBinding> textures);
+BindingSet makeBindingSet(Device& device, const Pipeline& pipeline, const PipelineLayoutDesc& layout,
+                          std::span<const Binding> bindings);
 
-void bind(VkCommandBuffer commands, const Pipeline& pipeline, const TextureSet* textures);
+void bind(VkCommandBuffer commands, const Pipeline& pipeline, const BindingSet& bindings);
 void push(VkCommandBuffer commands, const Pipeline& pipeline, std::span<const std::byte> bytes);
 
 /// Everything before is done and visible to everything after. Frames here are a few passes; one barrier serves them all.

@@ -53,7 +53,7 @@ void toGeneral(Device& device, VkImage image, const TextureDesc& desc) {
 
 Buffer makeBuffer(Device& device, const BufferDesc& desc) {
     Buffer buffer;
-    buffer.bytes = std::max<std::uint64_t>(desc.bytes, 4);
+    buffer.bytes = std::max<std::uint64_t>(desc.bytes, 16);
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = buffer.bytes;
     info.usage = desc.usage | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
@@ -88,6 +88,35 @@ Buffer uploadBytes(Device& device, const BufferDesc& desc, std::span<const std::
         barrier(commands);
     });
     return buffer;
+}
+
+namespace {
+
+TexelBuffer viewed(Device& device, Buffer buffer, VkFormat format) {
+    VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+    info.buffer = buffer.handle.get();
+    info.format = format;
+    info.range = VK_WHOLE_SIZE;
+    VkBufferView view = VK_NULL_HANDLE;
+    checkVulkan(vkCreateBufferView(device.handle(), &info, nullptr, &view), "vkCreateBufferView");
+    return {std::move(buffer), {view, [d = device.handle()](VkBufferView v) { vkDestroyBufferView(d, v, nullptr); }}};
+}
+
+BufferDesc asTexels(BufferDesc desc) {
+    desc.usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+    return desc;
+}
+
+} // namespace
+
+TexelBuffer makeTexels(Device& device, const BufferDesc& desc, VkFormat format) {
+    return viewed(device, makeBuffer(device, asTexels(desc)), format);
+}
+
+TexelBuffer uploadTexels(Device& device, const BufferDesc& desc, VkFormat format, std::span<const std::byte> data) {
+    BufferDesc sized = asTexels(desc);
+    sized.bytes = data.size();
+    return viewed(device, uploadBytes(device, sized, data), format);
 }
 
 void downloadBytes(Device& device, const Buffer& buffer, std::span<std::byte> data) {
@@ -157,8 +186,9 @@ Texture uploadTexture(Device& device, TextureDesc desc, std::span<const std::byt
 
 Owned<VkSampler> makeSampler(Device& device, const SamplerDesc& desc) {
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
-    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_LINEAR;
+    info.magFilter = info.minFilter = desc.filter;
+    info.mipmapMode =
+        desc.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = desc.wrapU;
     info.addressModeV = desc.wrapV;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;

@@ -23,11 +23,11 @@ struct Constants {
 };
 
 void makeLayout(Device& device, const PipelineLayoutDesc& desc, Pipeline& pipeline) {
-    std::vector<VkDescriptorSetLayoutBinding> bindings(desc.textureCount);
-    for (std::uint32_t i = 0; i < desc.textureCount; ++i)
-        bindings[i] = {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_ALL, nullptr};
+    const auto count = std::uint32_t(desc.bindings.size());
+    std::vector<VkDescriptorSetLayoutBinding> bindings(count);
+    for (std::uint32_t i = 0; i < count; ++i) bindings[i] = {i, desc.bindings[i], 1, VK_SHADER_STAGE_ALL, nullptr};
     VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    set.bindingCount = desc.textureCount;
+    set.bindingCount = count;
     set.pBindings = bindings.data();
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
     checkVulkan(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &setLayout), "vkCreateDescriptorSetLayout");
@@ -148,15 +148,18 @@ Pipeline makeCompute(Device& device, const ComputeDesc& desc) {
     return pipeline;
 }
 
-TextureSet makeTextureSet(Device& device, const Pipeline& pipeline, std::span<const TextureBinding> textures) {
-    const auto count = std::uint32_t(textures.size());
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count};
+BindingSet makeBindingSet(Device& device, const Pipeline& pipeline, const PipelineLayoutDesc& layoutDesc,
+                          std::span<const Binding> bindings) {
+    const auto count = std::uint32_t(bindings.size());
+    std::vector<VkDescriptorPoolSize> sizes;
+    for (const VkDescriptorType type : layoutDesc.bindings) sizes.push_back({type, 1});
     VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = info.poolSizeCount = 1;
-    info.pPoolSizes = &size;
+    info.maxSets = 1;
+    info.poolSizeCount = std::uint32_t(sizes.size());
+    info.pPoolSizes = sizes.data();
     VkDescriptorPool pool = VK_NULL_HANDLE;
     checkVulkan(vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "vkCreateDescriptorPool");
-    TextureSet set;
+    BindingSet set;
     set.pool = {pool, [d = device.handle()](VkDescriptorPool p) { vkDestroyDescriptorPool(d, p, nullptr); }};
 
     const VkDescriptorSetLayout layout = pipeline.setLayout.get();
@@ -167,23 +170,26 @@ TextureSet makeTextureSet(Device& device, const Pipeline& pipeline, std::span<co
     checkVulkan(vkAllocateDescriptorSets(device.handle(), &allocation, &set.handle), "vkAllocateDescriptorSets");
 
     std::vector<VkDescriptorImageInfo> images(count);
+    std::vector<VkDescriptorBufferInfo> buffers(count);
     std::vector<VkWriteDescriptorSet> writes(count, {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});
     for (std::uint32_t i = 0; i < count; ++i) {
-        images[i] = {textures[i].sampler, textures[i].view, VK_IMAGE_LAYOUT_GENERAL};
+        images[i] = {bindings[i].sampler, bindings[i].view, VK_IMAGE_LAYOUT_GENERAL};
+        buffers[i] = {bindings[i].uniform, 0, VK_WHOLE_SIZE};
         writes[i].dstSet = set.handle;
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
-        writes[i].descriptorType = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        writes[i].descriptorType = layoutDesc.bindings[i];
         writes[i].pImageInfo = &images[i];
+        writes[i].pBufferInfo = &buffers[i];
+        writes[i].pTexelBufferView = &bindings[i].texels;
     }
     vkUpdateDescriptorSets(device.handle(), count, writes.data(), 0, nullptr);
     return set;
 }
 
-void bind(VkCommandBuffer commands, const Pipeline& pipeline, const TextureSet* textures) {
+void bind(VkCommandBuffer commands, const Pipeline& pipeline, const BindingSet& bindings) {
     vkCmdBindPipeline(commands, pipeline.bindPoint, pipeline.handle.get());
-    if (textures != nullptr)
-        vkCmdBindDescriptorSets(commands, pipeline.bindPoint, pipeline.layout.get(), 0, 1, &textures->handle, 0, nullptr);
+    vkCmdBindDescriptorSets(commands, pipeline.bindPoint, pipeline.layout.get(), 0, 1, &bindings.handle, 0, nullptr);
 }
 
 void push(VkCommandBuffer commands, const Pipeline& pipeline, std::span<const std::byte> bytes) {
