@@ -1,0 +1,67 @@
+// Things strewn over a surface (suckers, warts, craters, seeds), found again by position.
+#pragma once
+
+#include <functional>
+#include <unordered_map>
+
+#include "noise.h"
+
+namespace relief::meshes {
+
+/// A round mark: where, how large, and which way it faces. `kind` and `luck` (0..1) are the painter's.
+struct Stamp {
+    dvec3 center{0};
+    double radius = 1;
+    dvec3 axis{0, 1, 0};
+    double luck = 0;
+    int kind = 0;
+};
+
+class Stamps {
+public:
+    /// `reach` times a stamp's radius around its centre, lookups find it; `cell` is about the common reach.
+    explicit Stamps(double cell, double reach = 1) : cell_(cell), reach_(reach) {}
+
+    void add(const Stamp& stamp);
+    /// True when no stamp within reach of p is nearer than `spacing` times the two radii.
+    [[nodiscard]] bool isFree(const dvec3& p, double radius, double spacing) const;
+    /// Calls `use(stamp, distance / radius)` for every stamp within reach of p.
+    template <typename Use>
+    void forEachNear(const dvec3& p, Use&& use) const {
+        auto found = cells_.find(key(glm::floor(p / cell_)));
+        if (found == cells_.end()) return;
+        for (std::uint32_t i : found->second) {
+            double x = glm::distance(p, stamps_[i].center) / stamps_[i].radius;
+            if (x < reach_) use(stamps_[i], x);
+        }
+    }
+    [[nodiscard]] std::size_t size() const { return stamps_.size(); }
+
+private:
+    static std::uint64_t key(const dvec3& cell) {
+        auto part = [](double x) { return std::uint64_t(std::int64_t(x) + (1 << 20)); };
+        return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
+    }
+    double cell_, reach_;
+    std::vector<Stamp> stamps_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; ///< every stamp in each cell that it reaches
+};
+
+inline void Stamps::add(const Stamp& stamp) {
+    dvec3 low = glm::floor((stamp.center - stamp.radius * reach_) / cell_);
+    dvec3 high = glm::floor((stamp.center + stamp.radius * reach_) / cell_);
+    for (double z = low.z; z <= high.z; ++z)
+        for (double y = low.y; y <= high.y; ++y)
+            for (double x = low.x; x <= high.x; ++x) cells_[key({x, y, z})].push_back(std::uint32_t(stamps_.size()));
+    stamps_.push_back(stamp);
+}
+
+inline bool Stamps::isFree(const dvec3& p, double radius, double spacing) const {
+    bool free = true;
+    forEachNear(p, [&](const Stamp& other, double x) {
+        if (x * other.radius < spacing * (radius + other.radius)) free = false;
+    });
+    return free;
+}
+
+} // namespace relief::meshes
