@@ -48,11 +48,11 @@ inline dvec3 octopusColor(const SkinPoint& skin, const Eye& eye) {
     return glm::mix(eyeColor(skin.p, eye), color, smoothstep(0.160, 0.172, skin.eyeAxis));
 }
 
-inline Painting paintOctopus(int size) {
+inline Painting paintOctopus(const ivec2& size) {
     Cage cage = makeOctopus();
-    Atlas atlas(cage, size, size);
+    Atlas atlas(cage, size.x, size.y);
     OctopusSkin octopus(cage, atlas.surface());
-    return paintAtlas(atlas, ivec2(size), [&](const SurfacePoint& point) {
+    return paintAtlas(atlas, size, [&](const SurfacePoint& point) {
         SkinPoint skin = octopus.at(point);
         return Paint{OctopusSkin::height(skin), octopusColor(skin, octopus.eye(skin.eye))};
     });
