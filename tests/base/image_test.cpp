@@ -31,7 +31,7 @@ float largestDifference(const Image& a, const Image& b) {
 }
 
 /// JPEG and HDR are read, not written, by relief.
-void writeForeign(const std::string& path, const Image& image, OIIO::TypeDesc sample) {
+void writeForeign(const std::string& path, const Image& image, const OIIO::TypeDesc& sample) {
     const auto output = OIIO::ImageOutput::create(path);
     ASSERT_TRUE(output) << OIIO::geterror();
     OIIO::ImageSpec spec(image.width, image.height, image.channels, sample);

@@ -56,48 +56,5 @@ TEST(Bounds, areEmptyUntilSomethingIsAdded) {
     EXPECT_EQ(bounds.center(), dvec3(2.5, 4, 3));
 }
 
-std::string stderrOf(const std::function<void()>& action) {
-    testing::internal::CaptureStderr();
-    action();
-    return testing::internal::GetCapturedStderr();
-}
-
-TEST(Warnings, areOneLineOnStderr) {
-    EXPECT_EQ(stderrOf([] { warnOnStderr("8-bit"); }), "warning: 8-bit\n");
-}
-
-TEST(Progress, isSilentWhenStderrIsNoTerminal) {
-    EXPECT_EQ(stderrOf([] { Progress("work", 2, ShowProgress::automatic).advance(2); }), "");
-}
-
-TEST(Progress, isSilentWhenNotWanted) {
-    EXPECT_EQ(stderrOf([] { Progress("work", 2, ShowProgress::never).advance(2); }), "");
-}
-
-TEST(Progress, redrawsOneLineAndEndsIt) {
-    const std::string text = stderrOf([] {
-        Progress progress("work", 4, ShowProgress::always);
-        progress.advance();
-        progress.advance(100); // more than the total
-    });
-    EXPECT_TRUE(text.starts_with("\rwork    0 % ░░░░"));
-    EXPECT_NE(text.find("\rwork   25 % █████░"), std::string::npos);
-    EXPECT_TRUE(text.ends_with("█\n"));
-    EXPECT_NE(text.find("\rwork  100 % "), std::string::npos);
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
-}
-
-TEST(Progress, drawsEachPercentOnce) {
-    const std::string text = stderrOf([] {
-        Progress progress("work", 100000, ShowProgress::always);
-        for (int i = 0; i < 100000; ++i) progress.advance();
-    });
-    EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 101);
-}
-
-TEST(Progress, bearsATotalOfZero) {
-    EXPECT_TRUE(stderrOf([] { Progress("work", 0, ShowProgress::always).advance(); }).ends_with("\n"));
-}
-
 } // namespace
 } // namespace relief

@@ -36,7 +36,7 @@ TEST(ObjLoader, refusesFaceIndexZero) {
 
 TEST(ObjLoader, refusesFaceIndexThatIsNoWholeNumber) {
     for (const std::string word : {"x", "1.5", "4294967297", "1e2", "1/a", "1//-"})
-        expectRefused(kSquare + "vt 0 0\nf 2 3 " + word + "\n", 6, {"whole number"});
+        expectRefused(fmt::format("{}vt 0 0\nf 2 3 {}\n", kSquare, word), 6, {"whole number"});
     expectRefused(kSquare + "vt 0 0\nf 1/1/1/1 2 3\n", 6, {"1/1/1/1", "vertex/texture/normal"});
     expectRefused(kSquare + "vt 0 0\nf /1 2 3\n", 6, {"whole number"});
 }
@@ -54,15 +54,15 @@ TEST(ObjLoader, refusesFacesThatUseAVertexTwice) {
 
 TEST(ObjLoader, refusesNumbersThatAreNotFinite) {
     for (const std::string word : {"nan", "inf", "-inf", "NaN", "infinity", "1e39", "-1e400"}) {
-        expectRefused("v 0 0 0\nv 0 " + word + " 0\n", 2, {word, "finite"});
-        expectRefused(kSquare + "vt 0 " + word + "\n" + kFace, 5, {word, "finite"});
-        expectRefused(kSquare + "vn 0 0 " + word + "\n" + kFace, 5, {word, "finite"});
+        expectRefused(fmt::format("v 0 0 0\nv 0 {} 0\n", word), 2, {word, "finite"});
+        expectRefused(fmt::format("{}vt 0 {}\n{}", kSquare, word, kFace), 5, {word, "finite"});
+        expectRefused(fmt::format("{}vn 0 0 {}\n{}", kSquare, word, kFace), 5, {word, "finite"});
     }
 }
 
 TEST(ObjLoader, refusesWordsThatAreNoNumbers) {
     for (const std::string word : {"0,5", "x", "1.2.3", "0x10", "--1", "+-1", "1e", ".", "1f"})
-        expectRefused("v 0 0 0\nv 0 " + word + " 0\n", 2, {"'" + word + "'", "decimal point"});
+        expectRefused(fmt::format("v 0 0 0\nv 0 {} 0\n", word), 2, {fmt::format("'{}'", word), "decimal point"});
 }
 
 TEST(ObjLoader, refusesTooFewOrTooManyNumbers) {
@@ -129,7 +129,7 @@ TEST(ObjLoader, refusesTagsOfTheWrongShape) {
     expectRefused(cage + "t\n", 6, {"name ints/floats/strings"});
     expectRefused(cage + "t crease\n", 6, {"name ints/floats/strings"});
     for (const std::string sizes : {"2/1", "2", "2/1/0/0", "a/1/0", "2//0", "-2/1/0", "2/1/"})
-        expectRefused(cage + "t crease " + sizes + " 0 1 3\n", 6, {"'" + sizes + "'", "2/1/0"});
+        expectRefused(fmt::format("{}t crease {} 0 1 3\n", cage, sizes), 6, {fmt::format("'{}'", sizes), "2/1/0"});
     expectRefused(cage + "t crease 2/1/0 0 1\n", 6, {"announces 3", "2 follow"});
     expectRefused(cage + "t crease 2/1/0 0 1 3 4\n", 6, {"announces 3", "4 follow"});
     expectRefused(cage + "t crease 4294967295/4294967295/0 0 1\n", 6, {"2 follow"});
