@@ -11,7 +11,6 @@ void emitVertex(uint face, vec2 uv, Place place, uint rate) {
     DisplacedSample s = displaced(face, uv, place);
     precise vec4 clip = project(s.q);
     gl_Position = clip;
-    vPosition = s.q;
     vNormal = s.normal;
     vTexCoord = s.st;
     vHeight = s.h;

@@ -12,7 +12,6 @@ layout(constant_id = 1) const bool kHasTexCoords = false;
 void main() {
     vec3 position = texelFetch(meshTexels, 2 * gl_VertexIndex).xyz;
     gl_Position = (drawsShadow != 0u ? scene.worldToShadow : scene.worldToClip) * vec4(position, 1.0);
-    vPosition = position;
     vNormal = texelFetch(meshTexels, 2 * gl_VertexIndex + 1).xyz;
     vTexCoord = kHasTexCoords ? texelFetch(texPointTexels, gl_VertexIndex).xy : vec2(0);
     vHeight = 0.0;

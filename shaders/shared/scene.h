@@ -32,7 +32,12 @@ RELIEF_CONSTANT uint kBindTexPoints = 8u;
 RELIEF_CONSTANT uint kBindEdgeRates = 9u;    // segments an edge: written per frame
 RELIEF_CONSTANT uint kBindDrawFaces = 10u;   // faces to draw in order: written per frame
 RELIEF_CONSTANT uint kBindMesh = 11u;        // a dense mesh: positions and normals in turn; its texture coordinates
-RELIEF_CONSTANT uint kBindCount = 12u;       // are kBindTexPoints
+                                             // are kBindTexPoints
+RELIEF_CONSTANT uint kBindDepths = 12u;      // the samples of a picture
+RELIEF_CONSTANT uint kBindNormals = 13u;
+RELIEF_CONSTANT uint kBindColors = 14u;
+RELIEF_CONSTANT uint kBindPicture = 15u;     // storage image
+RELIEF_CONSTANT uint kBindCount = 16u;
 
 // Texels of four words that a record takes in kBindRecords.
 RELIEF_CONSTANT uint kFaceTexels = 2u;
@@ -84,12 +89,14 @@ struct Scene {
     float nearDistance;
 
     mat4 worldToClip;
+    mat4 clipToWorld;
+    ivec2 pictureSize;
     vec3 eye;
     float exposure;
     vec3 keyDirection;      // towards the light, unit
     vec3 keyRadiance;
     vec3 irradiance[9];     // the environment's spherical harmonics, convolved with the cosine lobe
-    float environmentLevel; // of the environment map, for a roughness of 1
+    float environmentLevel; // of the environment map for this roughness, a whole number: one level is read
     vec3 albedo;            // linear; times the albedo map where there is one
     float roughness;
     float heightReach;      // largest |h|, for --show height

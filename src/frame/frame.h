@@ -1,4 +1,4 @@
-// One picture = an ordered list of passes over a model: rates, shadow, color, read-back.
+// One picture = an ordered list of passes over a model: rates, shadow, surface, light, read-back.
 #pragma once
 
 #include <map>
@@ -144,13 +144,14 @@ struct RenderOptions {
     Lighting lighting;
     Material material;
     Bounds bounds;                          ///< of the object: what the shadow map covers
-    bool isGenericBasis = false;            ///< OpenSubdiv's own basis for regular patches too: slower, for checks
+    /// Tessellation: vertices that one draw may make; default what suits the device.
+    std::optional<std::uint32_t> tessellatedVerticesPerDraw;
 };
 
 struct FrameStats {
     std::uint64_t triangleCount = 0, faceCount = 0;
     std::uint32_t drawCount = 0, maxRate = 0;
-    double rateMs = 0, shadowMs = 0, colorMs = 0; ///< on the device; 0 where it cannot time
+    double rateMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0; ///< on the device; 0 where it cannot time
     double wallMs = 0;                      ///< rates to pixels on the host
 };
 
@@ -163,7 +164,6 @@ struct Picture {
 
 struct RendererDesc {
     int width = 1024, height = 1024;
-    int samples = 4;                        ///< 1 or 4 a pixel
     int shadowSide = 2048;
 };
 

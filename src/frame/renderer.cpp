@@ -10,7 +10,9 @@
 namespace relief {
 namespace {
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kPictureFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16_SFLOAT;
+constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr std::uint32_t kGridRateLimit = 1024;
 
@@ -19,22 +21,24 @@ double secondsNow() {
 }
 
 struct Targets {
-    Texture color, resolved, depth, shadow;
+    Texture normals, colors, depths; ///< four samples a pixel, what surface.frag writes
+    Texture shadow, picture;
     Buffer readback;
 };
 
 Targets makeTargets(Device& device, const RendererDesc& desc) {
     const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
-    const VkSampleCountFlagBits samples = desc.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
     const auto shadowSide = std::uint32_t(desc.shadowSide);
+    const auto samples = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
+        return makeTexture(device, {.name = name, .width = width, .height = height, .format = format,
+                                    .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT, .samples = VK_SAMPLE_COUNT_4_BIT});
+    };
     Targets t;
-    if (desc.samples == 4)
-        t.color = makeTexture(device, {.name = "color", .width = width, .height = height, .format = kColorFormat,
-                                       .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, .samples = samples});
-    t.resolved = makeTexture(device, {.name = "resolved", .width = width, .height = height, .format = kColorFormat,
-                                      .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-    t.depth = makeTexture(device, {.name = "depth", .width = width, .height = height, .format = kDepthFormat,
-                                   .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, .samples = samples});
+    t.normals = samples("normals", kNormalFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    t.colors = samples("colors", kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    t.depths = samples("depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    t.picture = makeTexture(device, {.name = "picture", .width = width, .height = height, .format = kPictureFormat,
+                                     .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     t.shadow = makeTexture(device, {.name = "shadow", .width = shadowSide, .height = shadowSide, .format = kDepthFormat,
                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
     t.readback = makeBuffer(device, {.name = "picture", .bytes = std::uint64_t(width) * height * 8,
@@ -100,13 +104,13 @@ std::vector<std::uint32_t> gridIndices(std::uint32_t n, bool isTriangles) {
     return indices;
 }
 
-VkRenderingAttachmentInfo attachment(const Texture& target, bool keeps) {
+VkRenderingAttachmentInfo attachment(const Texture& target) {
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = target.view.get();
     info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
     info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    info.storeOp = keeps ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    return info; // cleared to zero: transparent black, farthest depth
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info; // cleared to zero: nothing, farthest depth
 }
 
 void setViewport(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) {
@@ -154,7 +158,7 @@ struct Renderer::Parts {
         BindingSet set;
     };
 
-    enum class Pass { rates, shadow, color, lines };
+    enum class Pass { rates, shadow, color, lines, light };
 
     ShaderConstants constantsOf(const Frame& frame, Pass pass) const;
     const Pipeline& pipelineOf(const Frame& frame, Pass pass);
@@ -168,6 +172,7 @@ struct Renderer::Parts {
     void draw(VkCommandBuffer commands, const Frame& frame, Pass pass);
     void shadowPass(VkCommandBuffer commands, const Frame& frame);
     void colorPass(VkCommandBuffer commands, const Frame& frame);
+    void lightPass(VkCommandBuffer commands, const Frame& frame);
     void copyBack(VkCommandBuffer commands);
     [[nodiscard]] Image readPixels() const;
     [[nodiscard]] bool castsShadows(const Frame& frame) const {
@@ -184,7 +189,7 @@ Renderer::Renderer(Device& device, const RendererDesc& desc) {
 Renderer::~Renderer() = default;
 
 ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) const {
-    ShaderConstants c{.isGenericBasis = frame.options.isGenericBasis, .hasTexCoords = frame.model.hasTexCoords(),
+    ShaderConstants c{.hasTexCoords = frame.model.hasTexCoords(),
                       .hasHeight = frame.model.hasHeight(), .normal = frame.options.normal};
     // Depth and rates need positions alone, and no normal is cheaper than the limit normal.
     if (pass == Pass::rates || pass == Pass::shadow) c.normal = NormalKind::limit;
@@ -194,6 +199,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) cons
         c.wantsTexCoords = c.hasAlbedoMap;
     }
     if (pass == Pass::lines) c.show = kShowLines;
+    if (pass == Pass::light) return {.show = showConstant(frame.options.show)};
     return c;
 }
 
@@ -209,7 +215,7 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, Pass pass) cons
                   {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaderCode("patch.tesc", isTriangles)},
                   {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaderCode("patch.tese", isTriangles)}};
     }
-    if (pass != Pass::shadow) stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, shaderCode("shade.frag")});
+    if (pass != Pass::shadow) stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, shaderCode("surface.frag")});
     return stages;
 }
 
@@ -220,9 +226,10 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
 
-    if (pass == Pass::rates) {
-        const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("rates.comp", frame.model.isTriangles())};
-        return pipelines[key] = makeCompute(device, {.name = "rates", .stage = stage, .constants = constants, .layout = passLayout()});
+    if (pass == Pass::rates || pass == Pass::light) {
+        const char* file = pass == Pass::rates ? "rates.comp" : "light.comp";
+        const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode(file, frame.model.isTriangles())};
+        return pipelines[key] = makeCompute(device, {.name = file, .stage = stage, .constants = constants, .layout = passLayout()});
     }
     const bool isPatches = !frame.model.isDense() && frame.options.path == Path::tessellation;
     GraphicsDesc graphics;
@@ -233,8 +240,8 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
     graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     graphics.depthFormat = kDepthFormat;
     if (pass != Pass::shadow) {
-        graphics.colorFormat = kColorFormat;
-        graphics.samples = desc.samples == 4 ? VK_SAMPLE_COUNT_4_BIT : VK_SAMPLE_COUNT_1_BIT;
+        graphics.colorFormats = {kNormalFormat, kColorFormat};
+        graphics.samples = VK_SAMPLE_COUNT_4_BIT;
     }
     if (pass == Pass::lines) {
         graphics.polygonMode = VK_POLYGON_MODE_LINE;
@@ -263,15 +270,16 @@ void Renderer::Parts::useEnvironment(const Lighting& lighting, Scene& sceneData)
         uploadedEnvironment = wanted;
     }
     std::copy_n(wanted->irradiance, 9, sceneData.irradiance);
-    sceneData.environmentLevel = float(wanted->levels.size() - 1);
+    sceneData.environmentLevel = std::round(sceneData.roughness * float(wanted->levels.size() - 1));
 }
 
 void Renderer::Parts::describeView(Frame& frame) {
     const RenderOptions& o = frame.options;
     Scene& s = frame.scene;
     frame.model.describe(s, frame.bindings);
-    useEnvironment(o.lighting, s);
     s.worldToClip = perspectiveMatrix(o.camera, double(desc.width) / desc.height);
+    s.clipToWorld = mat4(glm::inverse(glm::dmat4(s.worldToClip)));
+    s.pictureSize = {desc.width, desc.height};
     s.eye = vec3(o.camera.eye);
     s.nearDistance = float(o.camera.nearDistance);
     s.pixelsAtUnitDistance = float(desc.height / (2 * std::tan(glm::radians(o.camera.fieldOfView) / 2)));
@@ -282,6 +290,7 @@ void Renderer::Parts::describeView(Frame& frame) {
     s.keyRadiance = vec3(float(o.lighting.keyStrength)) * vec3(1.0f, 0.97f, 0.92f);
     s.albedo = o.material.albedo;
     s.roughness = std::clamp(o.material.roughness, 0.05f, 1.0f);
+    useEnvironment(o.lighting, s);
     s.hasShadows = castsShadows(frame) ? 1 : 0;
     s.worldToShadow = shadowMatrix(key, o.bounds);
     s.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
@@ -293,7 +302,12 @@ void Renderer::Parts::describeView(Frame& frame) {
     frame.bindings[kBindEnvironment].view = environment.view.get();
     frame.bindings[kBindEnvironment].sampler = around.get();
     frame.bindings[kBindShadow].view = targets.shadow.view.get();
-    frame.bindings[kBindShadow].sampler = nearest.get();
+    frame.bindings[kBindDepths].view = targets.depths.view.get();
+    frame.bindings[kBindNormals].view = targets.normals.view.get();
+    frame.bindings[kBindColors].view = targets.colors.view.get();
+    frame.bindings[kBindPicture].view = targets.picture.view.get();
+    for (const std::uint32_t image : {kBindShadow, kBindDepths, kBindNormals, kBindColors})
+        frame.bindings[image].sampler = nearest.get();
     frame.bindings[kBindEdgeRates].texels = frame.bindings[kBindDrawFaces].texels = noWords.view.get();
 }
 
@@ -338,7 +352,7 @@ void Renderer::Parts::makeEdgeRates(Frame& frame, FrameStats& stats) {
         downloadBytes(device, frame.edgeRates.buffer, std::as_writable_bytes(std::span(rates)));
     }
     frame.bindings[kBindEdgeRates].texels = frame.edgeRates.view.get();
-    frame.plan = isGrid ? planGrids(frame.model, rates) : planPatches(frame.model, rates, traits.tessellatedVerticesPerDraw);
+    frame.plan = isGrid ? planGrids(frame.model, rates) : planPatches(frame.model, rates, frame.options.tessellatedVerticesPerDraw.value_or(traits.tessellatedVerticesPerDraw));
 }
 
 void Renderer::Parts::makePlan(Frame& frame) {
@@ -386,7 +400,7 @@ void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pa
 
 void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
     const auto side = std::uint32_t(desc.shadowSide);
-    const VkRenderingAttachmentInfo depth = attachment(targets.shadow, true);
+    const VkRenderingAttachmentInfo depth = attachment(targets.shadow);
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea = {{0, 0}, {side, side}};
     info.layerCount = 1;
@@ -399,20 +413,14 @@ void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
 }
 
 void Renderer::Parts::colorPass(VkCommandBuffer commands, const Frame& frame) {
-    const bool isMultisampled = desc.samples == 4;
-    VkRenderingAttachmentInfo color = attachment(isMultisampled ? targets.color : targets.resolved, !isMultisampled);
-    if (isMultisampled) {
-        color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
-        color.resolveImageView = targets.resolved.view.get();
-        color.resolveImageLayout = VK_IMAGE_LAYOUT_GENERAL;
-    }
-    const VkRenderingAttachmentInfo depth = attachment(targets.depth, false);
+    const VkRenderingAttachmentInfo colors[] = {attachment(targets.normals), attachment(targets.colors)};
+    const VkRenderingAttachmentInfo depth = attachment(targets.depths);
     const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
     VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea = {{0, 0}, {width, height}};
     info.layerCount = 1;
-    info.colorAttachmentCount = 1;
-    info.pColorAttachments = &color;
+    info.colorAttachmentCount = 2;
+    info.pColorAttachments = colors;
     info.pDepthAttachment = &depth;
     vkCmdBeginRendering(commands, &info);
     setViewport(commands, width, height);
@@ -422,11 +430,19 @@ void Renderer::Parts::colorPass(VkCommandBuffer commands, const Frame& frame) {
     barrier(commands);
 }
 
+void Renderer::Parts::lightPass(VkCommandBuffer commands, const Frame& frame) {
+    const Pipeline& pipeline = pipelineOf(frame, Pass::light);
+    bind(commands, pipeline, frame.set);
+    pushConstants(commands, pipeline, {});
+    vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+    barrier(commands);
+}
+
 void Renderer::Parts::copyBack(VkCommandBuffer commands) {
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {std::uint32_t(desc.width), std::uint32_t(desc.height), 1};
-    vkCmdCopyImageToBuffer(commands, targets.resolved.handle.get(), VK_IMAGE_LAYOUT_GENERAL,
+    vkCmdCopyImageToBuffer(commands, targets.picture.handle.get(), VK_IMAGE_LAYOUT_GENERAL,
                            targets.readback.handle.get(), 1, &region);
     barrier(commands);
 }
@@ -473,10 +489,12 @@ Picture Renderer::render(const Model& model, const RenderOptions& options) {
         parts.timer.stamp(commands);
         parts.colorPass(commands, frame);
         parts.timer.stamp(commands);
+        parts.lightPass(commands, frame);
+        parts.timer.stamp(commands);
         parts.copyBack(commands);
     });
     const std::vector<double> times = parts.timer.intervals();
-    if (times.size() == 2) stats.shadowMs = times[0], stats.colorMs = times[1];
+    if (times.size() == 3) stats.shadowMs = times[0], stats.colorMs = times[1], stats.lightMs = times[2];
     picture.image = parts.readPixels();
     stats.wallMs = 1e3 * (secondsNow() - start);
     return picture;

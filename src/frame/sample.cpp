@@ -20,8 +20,9 @@ PipelineLayoutDesc passLayout() {
     PipelineLayoutDesc layout{std::vector<VkDescriptorType>(kBindCount, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER),
                               sizeof(PushConstants)};
     layout.bindings[kBindScene] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
+    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
         layout.bindings[image] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    layout.bindings[kBindPicture] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     return layout;
 }
 
@@ -53,17 +54,13 @@ std::vector<SampleResult> sampleSurface(Device& device, const Model& model, std:
                                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     const Buffer sceneBuffer = makeSceneBuffer(device);
     const Owned<VkSampler> sampler = makeSampler(device, {});
-    const TexelBuffer none = uploadWords(device, "nothing", {});
     Scene scene{};
     Binding bindings[kBindCount];
     model.describe(scene, bindings);
     scene.sampleQueries = in.address;
     scene.sampleResults = out.address;
     bindings[kBindScene].uniform = sceneBuffer.handle.get();
-    bindings[kBindEnvironment].view = bindings[kBindShadow].view = bindings[kBindAlbedo].view;
-    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
-        bindings[image].sampler = sampler.get();
-    bindings[kBindEdgeRates].texels = bindings[kBindDrawFaces].texels = none.view.get();
+    bindings[kBindHeight].sampler = sampler.get();
     const BindingSet set = makeBindingSet(device, pipeline, passLayout(), bindings);
     device.run([&](VkCommandBuffer commands) {
         writeScene(commands, sceneBuffer, scene);

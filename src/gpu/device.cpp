@@ -128,7 +128,8 @@ bool isUsable(VkPhysicalDevice physical) {
     if (properties.apiVersion < VK_API_VERSION_1_3) return false;
     NeededFeatures has;
     vkGetPhysicalDeviceFeatures2(physical, &has.base);
-    return has.v12.bufferDeviceAddress && has.v12.scalarBlockLayout && has.v13.dynamicRendering && has.v13.synchronization2;
+    return has.v12.bufferDeviceAddress && has.v12.scalarBlockLayout && has.v13.dynamicRendering &&
+           has.v13.synchronization2 && has.v13.maintenance4;
 }
 
 int rank(VkPhysicalDevice physical) {
@@ -241,7 +242,7 @@ void Device::makeDevice() {
     use.base.features.drawIndirectFirstInstance = has.drawIndirectFirstInstance;
     use.base.features.shaderInt64 = has.shaderInt64;
     use.v12.bufferDeviceAddress = use.v12.scalarBlockLayout = VK_TRUE;
-    use.v13.dynamicRendering = use.v13.synchronization2 = VK_TRUE;
+    use.v13.dynamicRendering = use.v13.synchronization2 = use.v13.maintenance4 = VK_TRUE;
 
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};

@@ -197,7 +197,8 @@ struct GraphicsDesc {
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkPolygonMode polygonMode = VK_POLYGON_MODE_FILL;
     bool pullsLinesForward = false;        ///< depth bias, for a wireframe over its own surface
-    VkFormat colorFormat = VK_FORMAT_UNDEFINED, depthFormat = VK_FORMAT_D32_SFLOAT;
+    std::vector<VkFormat> colorFormats;    ///< none: depth alone
+    VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
@@ -224,6 +225,10 @@ struct Binding {
     VkSampler sampler = VK_NULL_HANDLE;
     VkBufferView texels = VK_NULL_HANDLE;
     VkBuffer uniform = VK_NULL_HANDLE;
+
+    [[nodiscard]] bool isEmpty() const {
+        return view == VK_NULL_HANDLE && texels == VK_NULL_HANDLE && uniform == VK_NULL_HANDLE;
+    }
 };
 
 /// Set 0 of pipelines with that layout.

@@ -97,18 +97,19 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
     depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    VkPipelineColorBlendAttachmentState attachment{};
-    attachment.colorWriteMask = 0xf;
+    VkPipelineColorBlendAttachmentState replaces{};
+    replaces.colorWriteMask = 0xf;
+    const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colorFormats.size(), replaces);
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
-    blend.attachmentCount = desc.colorFormat == VK_FORMAT_UNDEFINED ? 0 : 1;
-    blend.pAttachments = &attachment;
+    blend.attachmentCount = std::uint32_t(attachments.size());
+    blend.pAttachments = attachments.data();
     const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     dynamic.dynamicStateCount = 2;
     dynamic.pDynamicStates = states;
     VkPipelineRenderingCreateInfo rendering{VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO};
     rendering.colorAttachmentCount = blend.attachmentCount;
-    rendering.pColorAttachmentFormats = &desc.colorFormat;
+    rendering.pColorAttachmentFormats = desc.colorFormats.data();
     rendering.depthAttachmentFormat = desc.depthFormat;
 
     VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
@@ -171,19 +172,21 @@ BindingSet makeBindingSet(Device& device, const Pipeline& pipeline, const Pipeli
 
     std::vector<VkDescriptorImageInfo> images(count);
     std::vector<VkDescriptorBufferInfo> buffers(count);
-    std::vector<VkWriteDescriptorSet> writes(count, {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});
+    std::vector<VkWriteDescriptorSet> writes;
     for (std::uint32_t i = 0; i < count; ++i) {
+        if (bindings[i].isEmpty()) continue; // the pipeline's shaders do not read it
         images[i] = {bindings[i].sampler, bindings[i].view, VK_IMAGE_LAYOUT_GENERAL};
         buffers[i] = {bindings[i].uniform, 0, VK_WHOLE_SIZE};
-        writes[i].dstSet = set.handle;
-        writes[i].dstBinding = i;
-        writes[i].descriptorCount = 1;
-        writes[i].descriptorType = layoutDesc.bindings[i];
-        writes[i].pImageInfo = &images[i];
-        writes[i].pBufferInfo = &buffers[i];
-        writes[i].pTexelBufferView = &bindings[i].texels;
+        VkWriteDescriptorSet& write = writes.emplace_back(VkWriteDescriptorSet{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});
+        write.dstSet = set.handle;
+        write.dstBinding = i;
+        write.descriptorCount = 1;
+        write.descriptorType = layoutDesc.bindings[i];
+        write.pImageInfo = &images[i];
+        write.pBufferInfo = &buffers[i];
+        write.pTexelBufferView = &bindings[i].texels;
     }
-    vkUpdateDescriptorSets(device.handle(), count, writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(device.handle(), std::uint32_t(writes.size()), writes.data(), 0, nullptr);
     return set;
 }
 

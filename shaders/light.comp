@@ -1,17 +1,18 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene.glsl"
-#define RELIEF_VARYING in
-#include "varyings.glsl"
+
+// Light on the samples that surface.frag left: once a pixel inside the surface, once a sample where its depth jumps.
+layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = 5) const uint kShow = kShowShaded;
-layout(constant_id = 6) const bool kHasAlbedoMap = false;
 
-layout(set = 0, binding = kBindAlbedo) uniform sampler2D albedoMap;
-layout(set = 0, binding = kBindEnvironment) uniform sampler2D environmentMap; // equirectangular, level = roughness
-layout(set = 0, binding = kBindShadow) uniform sampler2D shadowMap;      // reversed depth from the key light
-
-layout(location = 0) out vec4 color;
+layout(set = 0, binding = kBindEnvironment) uniform sampler2D environmentMap; // equirectangular
+layout(set = 0, binding = kBindShadow) uniform sampler2D shadowMap;           // reversed depth from the key light
+layout(set = 0, binding = kBindDepths) uniform sampler2DMS depthSamples;
+layout(set = 0, binding = kBindNormals) uniform sampler2DMS normalSamples;
+layout(set = 0, binding = kBindColors) uniform sampler2DMS colorSamples;
+layout(set = 0, binding = kBindPicture, rgba16f) uniform writeonly image2D picture;
 
 const float kPi = 3.14159265;
 
@@ -35,11 +36,11 @@ vec3 environmentBrdf(vec3 f0, float roughness, float nv) {
 
 // GGX with Smith's height-correlated masking (Heitz 2014) and Schlick's Fresnel, times n.l.
 float keySpecular(float nl, float nv, float nh, float vh, float roughness, float f0) {
-    float a2 = roughness * roughness * roughness * roughness;
+    float a2 = roughness * roughness * roughness * roughness, x = 1.0 - vh;
     float d = (nh * a2 - nh) * nh + 1.0;
     float distribution = a2 / (kPi * d * d);
     float visibility = 0.5 / max(1e-5, nl * sqrt(nv * nv * (1.0 - a2) + a2) + nv * sqrt(nl * nl * (1.0 - a2) + a2));
-    float fresnel = f0 + (1.0 - f0) * pow(1.0 - vh, 5.0);
+    float fresnel = f0 + (1.0 - f0) * x * x * x * x * x;
     return distribution * visibility * fresnel * nl;
 }
 
@@ -52,7 +53,7 @@ float keyVisibility(vec3 position, vec3 n) {
     float slope = 1.0 - abs(dot(n, scene.keyDirection));
     vec4 clip = scene.worldToShadow * vec4(position + n * scene.shadowBias * (0.5 + 2.0 * slope), 1.0);
     vec2 center = clip.xy * 0.5 + 0.5;
-    float angle = 2.0 * kPi * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
+    float angle = 2.0 * kPi * fract(52.9829189 * fract(dot(vec2(gl_GlobalInvocationID.xy), vec2(0.06711056, 0.00583715))));
     vec2 x = scene.shadowSoftness * vec2(cos(angle), sin(angle)), y = vec2(-x.y, x.x);
     float lit = 0.0;
     for (int i = 0; i < 8; ++i) {
@@ -62,9 +63,7 @@ float keyVisibility(vec3 position, vec3 n) {
     return lit;
 }
 
-vec3 shaded(vec3 n, vec3 v) {
-    vec3 albedo = scene.albedo;
-    if (kHasAlbedoMap) albedo *= texture(albedoMap, vec2(vTexCoord.x, 1.0 - vTexCoord.y)).rgb;
+vec3 shaded(vec3 position, vec3 n, vec3 v, vec3 albedo) {
     const float f0 = 0.04; // a dielectric of index 1.5
     float nv = max(dot(n, v), 1e-4);
 
@@ -72,47 +71,61 @@ vec3 shaded(vec3 n, vec3 v) {
     vec3 mirrored = reflect(-v, n);
     // Directions below the surface see the surface: fade what they would reflect.
     float horizon = clamp(1.0 + 1.5 * dot(mirrored, n), 0.0, 1.0);
-    vec3 around = textureLod(environmentMap, equirectangular(mirrored), scene.roughness * scene.environmentLevel).rgb;
+    vec3 around = textureLod(environmentMap, equirectangular(mirrored), scene.environmentLevel).rgb;
     vec3 specular = around * environmentBrdf(vec3(f0), scene.roughness, nv) * horizon;
 
     vec3 l = scene.keyDirection, h = normalize(l + v);
     float nl = dot(n, l);
     if (nl > 0.0) {
-        vec3 arriving = scene.keyRadiance * keyVisibility(vPosition, n);
+        vec3 arriving = scene.keyRadiance * keyVisibility(position, n);
         diffuse += arriving * nl / kPi;
         specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), scene.roughness, f0);
     }
     return scene.exposure * (albedo * diffuse + specular);
 }
 
-// A calm diverging map: blue below, white at rest, orange above.
-vec3 heightColor(float x) {
-    vec3 end = x < 0.0 ? vec3(0.10, 0.30, 0.65) : vec3(0.85, 0.38, 0.06);
-    return mix(vec3(0.93), end, clamp(abs(x), 0.0, 1.0));
+vec3 fromOctahedral(vec2 p) {
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    float fold = max(-n.z, 0.0);
+    n.xy -= fold * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    return normalize(n);
 }
 
-vec3 rateColor(float rate) {
-    float x = clamp(log2(rate) / 6.0, 0.0, 1.0); // 1 to 64 segments
-    return clamp(vec3(1.6 * x - 0.2, 0.25 + 1.3 * x * (1.2 - x), 0.75 - 0.9 * x), 0.0, 1.0);
-}
-
-vec3 faceColor(uint face) {
-    uint h = face * 747796405u + 2891336453u;
-    h = ((h >> ((h >> 28u) + 4u)) ^ h) * 277803737u;
-    return vec3(0.35) + 0.55 * vec3(h & 255u, (h >> 8) & 255u, (h >> 16) & 255u) / 255.0;
+vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color) {
+    if (kShow == kShowNormal) return 0.5 * n + 0.5;
+    vec4 world = scene.clipToWorld * vec4(ndc, depth, 1.0);
+    vec3 position = world.xyz / world.w;
+    vec3 v = normalize(scene.eye - position);
+    if (kShow == kShowShaded) return shaded(position, n, v, color);
+    return color * (0.35 + 0.65 * max(dot(n, v), 0.0));
 }
 
 void main() {
-    vec3 n = normalize(gl_FrontFacing ? vNormal : -vNormal);
-    vec3 v = normalize(scene.eye - vPosition);
-    float light = 0.35 + 0.65 * max(dot(n, v), 0.0);
-    vec3 c;
-    if (kShow == kShowShaded) c = shaded(n, v);
-    else if (kShow == kShowNormal) c = 0.5 * normalize(vNormal) + 0.5;
-    else if (kShow == kShowHeight) c = light * heightColor(scene.heightReach > 0.0 ? vHeight / scene.heightReach : 0.0);
-    else if (kShow == kShowRate) c = light * rateColor(float(vRate));
-    else if (kShow == kShowFaces) c = light * faceColor(vFace);
-    else if (kShow == kShowWireframe) c = light * vec3(0.80, 0.82, 0.85);
-    else c = vec3(0.08, 0.10, 0.14);
-    color = vec4(c, 1.0);
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, scene.pictureSize))) return;
+    float depths[4], lowest = 1.0, highest = 0.0;
+    vec3 normals[4], colors[4], normal = vec3(0), color = vec3(0);
+    for (int i = 0; i < 4; ++i) {
+        depths[i] = texelFetch(depthSamples, at, i).r;
+        normals[i] = fromOctahedral(texelFetch(normalSamples, at, i).xy);
+        colors[i] = texelFetch(colorSamples, at, i).rgb;
+        lowest = min(lowest, depths[i]);
+        highest = max(highest, depths[i]);
+        normal += normals[i];
+        color += 0.25 * colors[i];
+    }
+    if (highest == 0.0) {
+        imageStore(picture, at, vec4(0));
+        return;
+    }
+    vec2 ndc = (vec2(at) + 0.5) / vec2(scene.pictureSize) * 2.0 - 1.0;
+    bool isOneSurface = highest - lowest < 0.02 * highest && dot(normal, normal) > 12.0;
+    vec4 sum = vec4(0);
+    for (int i = 0; i < (isOneSurface ? 1 : 4); ++i) {
+        if (depths[i] == 0.0) continue;
+        float depth = isOneSurface ? 0.5 * (lowest + highest) : depths[i];
+        vec3 n = isOneSurface ? normalize(normal) : normals[i];
+        sum += vec4(seen(ndc, depth, n, isOneSurface ? color : colors[i]), 1.0) * (isOneSurface ? 1.0 : 0.25);
+    }
+    imageStore(picture, at, sum);
 }

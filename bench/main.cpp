@@ -1,0 +1,236 @@
+// relief_bench: the same displaced triangles drawn by each path and as a static dense mesh, in one run; what splitting
+// draws is worth on this device; what a cold start costs. Absolute times are noise between runs: quote the ratios.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "frame/frame.h"
+
+namespace {
+
+using namespace relief;
+
+constexpr int kRounds = 7;
+constexpr std::uint64_t kTriangles = 1'000'000;
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return values[values.size() / 2];
+}
+
+double millisecondsOf(const std::function<void()>& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// The production cage where it is at hand (RELIEF_DATA), else the project's own torus.
+std::string cagePath() {
+    const char* data = std::getenv("RELIEF_DATA");
+    const std::string folder = data != nullptr ? data : RELIEF_SOURCE "/../shared/data";
+    const std::string production = folder + "/bigguy.obj";
+    return std::filesystem::exists(production) ? production : RELIEF_SOURCE "/meshes/torus.obj";
+}
+
+/// Smooth bumps of a few texels' width, half a percent of the cage high.
+HeightMap bumps(int side, double amplitude) {
+    std::vector<float> texels(std::size_t(side) * side);
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            texels[std::size_t(y) * side + x] = float(std::sin(x * 64 * 6.2831853 / side) * std::sin(y * 64 * 6.2831853 / side));
+    return makeHeightMap(side, side, std::move(texels), 0, amplitude, Wrap::repeat);
+}
+
+/// The grid path's triangles as a static mesh with the reference evaluator's full normals.
+DenseMesh denseOf(const ReferenceSurface& surface, const HeightMap& map, int rate) {
+    DenseMesh mesh;
+    for (int face = 0; face < surface.faceCount(); ++face) {
+        const auto first = std::uint32_t(mesh.positions.size());
+        for (int j = 0; j <= rate; ++j)
+            for (int i = 0; i <= rate; ++i) {
+                const DisplacedFrame f = displacedFrame(surface, &map, face, dvec2(i, j) / double(rate));
+                mesh.positions.emplace_back(f.q);
+                mesh.normals.emplace_back(f.full);
+                mesh.texCoords.emplace_back(f.st);
+            }
+        const auto at = [&](int i, int j) { return first + std::uint32_t(j * (rate + 1) + i); };
+        for (int j = 0; j < rate; ++j)
+            for (int i = 0; i < rate; ++i)
+                for (const std::uint32_t v : {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)})
+                    mesh.indices.push_back(v);
+    }
+    return mesh;
+}
+
+/// Cage, map, surface and camera that all cases share.
+struct Subject {
+    std::string path = cagePath();
+    Cage cage = readCage(path);
+    Surface surface = buildSurface(cage, {});
+    ReferenceSurface reference{cage, {.isolation = 3}};
+    Bounds bounds;
+    HeightMap map;
+    RenderOptions options;
+    int rate = 1;
+
+    Subject() {
+        for (const vec3& p : cage.positions) bounds.add(dvec3(p));
+        map = bumps(2048, 0.002 * bounds.diagonal());
+        const std::vector<dvec3> points = outline(reference, &map);
+        options.camera = frameCamera(points, {}, 1);
+        options.bounds = bounds;
+        options.lighting.castsShadows = false;
+        rate = int(std::lround(std::sqrt(double(kTriangles) / (2.0 * double(surface.faces.size())))));
+        options.rate = rate;
+    }
+};
+
+struct Series {
+    const char* name;
+    const Model* model;
+    Path path;
+    std::vector<double> device, wall;
+    std::uint64_t triangles = 0;
+};
+
+/// Interleaved rounds, so that a slow spell of the machine hits all alike.
+void measure(Renderer& renderer, const RenderOptions& base, std::vector<Series>& all) {
+    for (int round = 0; round <= kRounds; ++round)
+        for (Series& series : all) {
+            RenderOptions options = base;
+            options.path = series.path;
+            const Picture picture = renderer.render(*series.model, options);
+            if (round == 0) continue; // compiles the shaders
+            series.device.push_back(picture.stats.colorMs);
+            series.wall.push_back(picture.stats.wallMs);
+            series.triangles = picture.stats.triangleCount;
+        }
+}
+
+void print(const std::vector<Series>& all) {
+    const Series& base = all.back();
+    for (const Series& series : all)
+        std::cout << fmt::format("{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x\n",
+                                 series.name, series.triangles, median(series.device),
+                                 median(series.device) / median(base.device), median(series.wall),
+                                 median(series.wall) / median(base.wall));
+}
+
+int benchFrame() {
+    Subject subject;
+    Device device;
+    const Model displaced(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    const DenseMesh mesh = denseOf(subject.reference, subject.map, subject.rate);
+    const Model dense(device, {.dense = &mesh});
+    Renderer renderer(device, {});
+    std::cout << fmt::format("frame: {} at rate {}, 1024 x 1024, 4 samples, full normals, {} on {}\n", subject.path, subject.rate,
+                             "2048 x 2048 float map", device.traits().name);
+    std::vector<Series> all;
+    if (device.traits().hasTessellation) all.push_back({"tessellation", &displaced, Path::tessellation, {}, {}});
+    all.push_back({"grid", &displaced, Path::grid, {}, {}});
+    all.push_back({"static dense mesh", &dense, Path::grid, {}, {}});
+    measure(renderer, subject.options, all);
+    print(all);
+    std::cout << fmt::format("on the device: cage + map {}, dense mesh {}\n", humanBytes(displaced.byteCount()),
+                             humanBytes(dense.byteCount()));
+    return 0;
+}
+
+/// Tessellated vertices in one draw against time: where DeviceTraits::tessellatedVerticesPerDraw comes from.
+int benchSplit() {
+    Subject subject;
+    subject.options.rate = std::min(subject.rate, 12);
+    Device device;
+    if (!device.traits().hasTessellation) {
+        std::cout << "split: " << device.traits().name << " has no tessellation shaders\n";
+        return 0;
+    }
+    const Model model(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    for (const std::uint32_t limit : {1'000u, 2'500u, 5'000u, 10'000u, 20'000u, 40'000u, 80'000u}) {
+        RenderOptions options = subject.options;
+        options.tessellatedVerticesPerDraw = limit;
+        Renderer renderer(device, {});
+        std::vector<double> times;
+        for (int round = 0; round < 4; ++round) times.push_back(renderer.render(model, options).stats.colorMs);
+        times.erase(times.begin());
+        std::cout << fmt::format("split: {:6} vertices a draw: {:8.1f} ms\n", limit, median(times));
+    }
+    return 0;
+}
+
+/// Runs the command line of relief with an empty shader cache; returns wall milliseconds and peak memory in KiB.
+std::pair<double, long> coldRun(const std::vector<std::string>& words) {
+    rusage usage{};
+    int status = 0;
+    const double ms = millisecondsOf([&] {
+        const pid_t child = fork();
+        if (child == 0) {
+            setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+            std::vector<char*> arguments;
+            for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+            arguments.push_back(nullptr);
+            execv(RELIEF_BINARY, arguments.data());
+            _exit(127);
+        }
+        wait4(child, &status, 0, &usage);
+    });
+    if (status != 0) fail(Failure::internal, "{} ended with status {}", words[0], status);
+    return {ms, usage.ru_maxrss};
+}
+
+/// A whole `relief render` with nothing cached against the warm frame that it contains.
+int benchCold() {
+    const Subject subject;
+    const std::string folder = (std::filesystem::temp_directory_path() / fmt::format("relief_bench_{}", getpid())).string();
+    std::filesystem::create_directories(folder);
+    const std::string map = folder + "/map.exr", picture = folder + "/picture.png";
+    writeImage(map, {subject.map.width, subject.map.height, 1, subject.map.texels}, SampleType::real);
+
+    std::vector<double> cold, warm, tables;
+    long peak = 0;
+    for (int round = 0; round < 5; ++round) {
+        const auto [ms, kib] = coldRun({"relief", "render", subject.path, "--height", map, "--scale",
+                                        fmt::format("{}", subject.map.scale), "--edge-pixels", "4", "-q", "-o", picture});
+        cold.push_back(ms);
+        peak = std::max(peak, kib);
+        Device device;
+        tables.push_back(1e3 * buildSurface(subject.cage, {}).tableSeconds);
+        const Model model(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+        Renderer renderer(device, {});
+        RenderOptions options = subject.options;
+        options.rate.reset();
+        options.edgePixels = 4;
+        options.lighting.castsShadows = true;
+        renderer.render(model, options);
+        warm.push_back(renderer.render(model, options).stats.wallMs);
+    }
+    std::filesystem::remove_all(folder);
+    std::cout << fmt::format("cold: whole relief render {:.0f} ms, warm frame {:.0f} ms, OpenSubdiv's tables {:.0f} ms: "
+                             "(render - tables) / frame = {:.2f}; peak memory {}\n",
+                             median(cold), median(warm), median(tables), (median(cold) - median(tables)) / median(warm),
+                             humanBytes(std::uint64_t(peak) * 1024));
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        const std::vector<std::string> wanted(argv + 1, argv + argc);
+        const auto runs = [&](const char* name) { return wanted.empty() || std::ranges::find(wanted, name) != wanted.end(); };
+        if (runs("frame")) benchFrame();
+        if (runs("split")) benchSplit();
+        if (runs("cold")) benchCold();
+        return 0;
+    } catch (const relief::Error& error) {
+        std::cerr << "relief_bench: " << error.what() << '\n';
+        return int(error.failure);
+    }
+}
