@@ -5,6 +5,14 @@
 
 namespace relief::meshes {
 
+constexpr double kLanternTurn = 0.96 / 8.5;           ///< of s, one side of the lantern
+constexpr double kPanelLow = 0.40, kPanelHigh = 0.66; ///< the panels' lower and upper border in t
+
+/// Texture coordinates as sides of the lantern, and 0..1 over the height of a panel.
+inline dvec2 lanternPlace(const dvec2& st) {
+    return {(st.x - 0.02) / kLanternTurn, (st.y - kPanelLow) / (kPanelHigh - kPanelLow)};
+}
+
 struct LanternBuilder {
     static constexpr int kSides = 8;
     CageBuilder cage;
@@ -22,7 +30,7 @@ struct LanternBuilder {
     }
     /// A corner whose texture place is `turn` eighths along and `up` high; equal places are one.
     Corner corner(std::uint32_t point, double turn, double up) {
-        dvec2 st(0.02 + 0.96 * turn / (kSides + 0.5), up);
+        dvec2 st(0.02 + kLanternTurn * turn, up);
         auto [entry, isNew] = texes.insert({{std::lround(st.x * 1e5), std::lround(st.y * 1e5)}, 0});
         if (isNew) entry->second = cage.tex(st);
         return {point, entry->second};
@@ -52,7 +60,7 @@ inline void LanternBuilder::addPanel(int side, const std::array<Loop, 3>& frame)
     const std::uint32_t outer[] = {frame[0][side], frame[0][n],    frame[1][n],
                                    frame[2][n],    frame[2][side], frame[1][side]};
     constexpr dvec2 kOuter[] = {{0, 0}, {1, 0}, {1, 0.5}, {1, 1}, {0, 1}, {0, 0.5}};
-    auto up = [](double y) { return glm::mix(0.40, 0.66, y); };
+    auto up = [](double y) { return glm::mix(kPanelLow, kPanelHigh, y); };
     std::array<Corner, 6> rim, pane;
     for (int k = 0; k < 6; ++k) {
         rim[k] = corner(outer[k], side + kOuter[k].x, up(kOuter[k].y));

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "lantern_map.h"
 #include "maps_ball.h"
 #include "maps_square.h"
 #include "octopus_colors.h"
@@ -20,13 +21,10 @@ struct Map {
     Painting (*paint)(const ivec2& size);
 };
 constexpr Map kMaps[] = {
-    {"bricks", {1024, 1024}, paintBricks},
-    {"golf", {2048, 1024}, paintGolf},
-    {"moon", {2304, 1536}, paintMoon},
-    {"octopus", {2048, 2048}, paintOctopus},
-    {"orange", {1536, 1024}, paintOrange},
-    {"smooth", {512, 512}, paintSmooth},
-    {"strawberry", {2048, 2048}, paintStrawberry},
+    {"bricks", {1024, 1024}, paintBricks},   {"golf", {2048, 1024}, paintGolf},
+    {"lantern", {1024, 1024}, paintLantern}, {"moon", {2304, 1536}, paintMoon},
+    {"octopus", {2048, 2048}, paintOctopus}, {"orange", {1536, 1024}, paintOrange},
+    {"smooth", {512, 512}, paintSmooth},     {"strawberry", {2048, 2048}, paintStrawberry},
     {"terrain", {2048, 2048}, paintTerrain},
 };
 

@@ -21,13 +21,13 @@ inline dvec3 spiralPoint(double i, double n) {
 
 /// Peel with pores of three sizes, a dimple with creases and the button of the stem at the top.
 inline Painting paintOrange(const ivec2& size) {
-    constexpr int kPores = 6500;
+    constexpr int kPores = 7500;
     Stamps pores(0.05);
     Random random(3);
     for (int i = 0; i < kPores; ++i) {
-        dvec3 jitter(random(-1, 1), random(-1, 1), random(-1, 1));
+        dvec3 jitter = random.inBox();
         double luck = random();
-        pores.add({glm::normalize(spiralPoint(i, kPores) + 0.012 * jitter), 0.014 + 0.016 * luck * luck, {}, luck, 0});
+        pores.add({glm::normalize(spiralPoint(i, kPores) + 0.012 * jitter), 0.012 + 0.014 * luck * luck, {}, luck, 0});
     }
     return paintBall(size, [&](const dvec3& d) {
         double pit = 0;
@@ -35,8 +35,8 @@ inline Painting paintOrange(const ivec2& size) {
         double fromTop = std::acos(glm::clamp(d.y, -1.0, 1.0)), turn = std::atan2(d.x, d.z);
         double creases = std::pow(0.5 + 0.5 * std::cos(7 * turn + 3 * noise(d * 4.0, 7)), 2.0);
         double navel = std::exp(-std::pow(fromTop / 0.20, 2)), button = smoothstep(0.085, 0.06, fromTop);
-        double lumps = 0.022 * fractal(d * 2.2, 3, 5) + 0.006 * fractal(d * 13.0, 2, 9);
-        double height = lumps - 0.011 * pit * (1 - button) - 0.035 * d.y * d.y;
+        double lumps = 0.016 * fractal(d * 2.2, 3, 5) + 0.006 * fractal(d * 13.0, 2, 9);
+        double height = lumps - 0.010 * pit * (1 - button) - 0.035 * d.y * d.y;
         height += navel * (-0.055 - 0.022 * creases * smoothstep(0.05, 0.12, fromTop));
         height += button * (0.035 + 0.012 * fractal(d * 40.0, 2, 15));
         double tint = fractal(d * 1.6, 3, 11);
@@ -52,8 +52,8 @@ class MoonCraters {
 public:
     MoonCraters() {
         Random random(19);
-        for (const auto& [count, low, high] : {Band{9, 0.20, 0.34}, Band{45, 0.09, 0.20}, Band{260, 0.04, 0.09},
-                                               Band{1500, 0.018, 0.04}, Band{5000, 0.009, 0.018}})
+        for (const auto& [count, low, high] : {Band{11, 0.18, 0.32}, Band{75, 0.08, 0.18}, Band{420, 0.035, 0.08},
+                                               Band{2200, 0.016, 0.035}, Band{7000, 0.008, 0.016}})
             for (int i = 0; i < count; ++i) strew(low, high, random);
     }
     [[nodiscard]] double height(const dvec3& d) const {
@@ -65,10 +65,10 @@ public:
     [[nodiscard]] double rays(const dvec3& d) const {
         double sum = 0;
         for (const Stamp& crater : young_) {
-            dvec3 side = glm::normalize(glm::cross(crater.center, dvec3(0.3, 1, 0.2))),
-                  up = glm::cross(side, crater.center);
-            double x = glm::distance(d, crater.center) / crater.radius,
-                   turn = std::atan2(glm::dot(d, side), glm::dot(d, up));
+            double x = glm::distance(d, crater.center) / crater.radius;
+            if (x > 11) continue;
+            dvec3 side = glm::normalize(glm::cross(crater.center, dvec3(0.3, 1, 0.2)));
+            double turn = std::atan2(glm::dot(d, side), glm::dot(d, glm::cross(side, crater.center)));
             dvec3 around(2.6 * std::cos(turn), 2.6 * std::sin(turn), 0.10 * x + 9 * crater.luck);
             double streak = smoothstep(0.02, 0.55, noise(around, 27) + 0.5 * noise(around * 3.0, 28));
             double fade = 1 - smoothstep(2.0, 11.0, x);
@@ -84,23 +84,22 @@ private:
     };
     /// Small sizes are likelier within a band; a few are young.
     void strew(double low, double high, Random& random) {
-        dvec3 d;
-        do d = dvec3(random(-1, 1), random(-1, 1), random(-1, 1));
-        while (glm::length(d) > 1 || glm::length(d) < 0.1);
+        dvec3 d = random.inBox();
+        while (glm::length(d) > 1 || glm::length(d) < 0.1) d = random.inBox(); // no denser towards the box's corners
         double t = random(), luck = random();
         Stamp crater{glm::normalize(d), low * std::pow(high / low, t * t), {}, luck, 0};
         craters_.add(crater);
         if (luck > 0.955 && crater.radius > 0.035 && crater.radius < 0.14 && young_.size() < 7)
             young_.push_back(crater);
     }
-    /// Bowl, raised rim and apron; large ones have a flat floor and a central peak. `x` is the distance over the
-    /// radius.
+    /// Bowl, raised rim and apron; large ones have a flat floor and a central peak. x: distance over the radius.
     static double profile(const Stamp& crater, double x, const dvec3& d) {
         double fresh = 0.35 + 0.65 * crater.luck * crater.luck, wide = smoothstep(0.06, 0.20, crater.radius);
-        x += 0.07 * noise(d * (2.5 / crater.radius), 31) * smoothstep(0.5, 1.0, x); // rims are not perfect circles
-        double bowl = std::max(x * x - 1, glm::mix(-1.0, -0.55, wide)) * glm::mix(0.26, 0.14, wide);
+        if (crater.radius > 0.03) // ragged rims
+            x += 0.07 * noise(d * (2.5 / crater.radius), 31) * smoothstep(0.5, 1.0, x);
+        double bowl = std::max(x * x - 1, glm::mix(-1.0, -0.55, wide)) * glm::mix(0.36, 0.20, wide);
         double inside = x < 1 ? bowl : 0, w = x < 1 ? 0.20 : 0.34, rim = (x - 1) / w;
-        double crest = glm::mix(0.075, 0.05, wide) * std::exp(-rim * rim), peak = 0.07 * wide * bump(x / 0.28);
+        double crest = glm::mix(0.10, 0.07, wide) * std::exp(-rim * rim), peak = 0.10 * wide * bump(x / 0.28);
         return fresh * (inside + crest + peak);
     }
     Stamps craters_{0.08, 1.9};
@@ -110,10 +109,10 @@ private:
 inline Painting paintMoon(const ivec2& size) {
     MoonCraters craters;
     return paintBall(size, [&](const dvec3& d) {
-        double basin = fractal(warped(d, 1.4, 0.25, 47) * 1.15, 4, 45), mare = smoothstep(0.06, 0.22, basin);
-        double rough = 0.012 * fractal(d * 6.0, 4, 49) + 0.0045 * fractal(d * 45.0, 3, 51);
+        double basin = fractal(warped(d, 1.4, 0.25, 47) * 1.15, 4, 45), mare = smoothstep(0.04, 0.20, basin);
+        double rough = 0.014 * fractal(d * 6.0, 3, 49) + 0.004 * fractal(d * 45.0, 3, 51);
         double height = craters.height(d) * (1 - 0.55 * mare) + rough * (1 - 0.7 * mare) - 0.030 * mare;
-        double shade = 0.60 + 0.10 * fractal(d * 5.0, 5, 53) + 0.9 * height - 0.24 * mare;
+        double shade = 0.60 + 0.10 * fractal(d * 5.0, 4, 53) + 0.9 * height - 0.17 * mare;
         shade = glm::mix(shade, 0.92, 0.55 * craters.rays(d));
         return Paint{height, dvec3(1.0, 0.975, 0.94) * shade};
     });

@@ -71,39 +71,40 @@ inline Painting paintBricks(const ivec2& size) {
     });
 }
 
-/// Signed distance to the walls of the box that stands on the terrain, negative inside.
+/// Signed distance to the walls of the box that stands on the terrain, negative inside. They run along the axes, as the
+/// samples of a displaced grid do: a slanted wall narrower than a sample would have teeth.
 inline double boxDistance(const dvec2& ground) {
-    constexpr double kTurn = 0.4;
-    dvec2 d = ground - dvec2(0.30, -0.34);
-    dvec2 q(std::cos(kTurn) * d.x + std::sin(kTurn) * d.y, std::cos(kTurn) * d.y - std::sin(kTurn) * d.x);
-    dvec2 away = glm::abs(q) - dvec2(0.17, 0.12);
+    dvec2 away = glm::abs(ground - dvec2(0.25, -0.375)) - dvec2(0.1875, 0.125);
     return std::max(away.x, away.y);
 }
 
-/// Ridged mountains around a valley; `ground` is -1..1 each way.
+/// Falls to 0 on the border, so that a map that repeats has no step there.
+inline double rimOf(const dvec2& ground) {
+    return smoothstep(0.0, 0.12, 1 - std::max(std::abs(ground.x), std::abs(ground.y)));
+}
+
+/// Ridged mountains behind a valley; `ground` is -1..1 each way.
 inline double mountainHeight(const dvec2& ground) {
-    dvec3 p = warped({ground * 1.1, 3.7}, 1.4, 0.18, 23);
-    double range = smoothstep(-0.45, 0.55, fractal(p * 0.9, 3, 21) + 0.55 * ground.y + 0.15 * ground.x);
-    double peaks = ridges(p * 1.9, 7, 29);
-    double hills = 0.035 * fractal(p * 3.0, 5, 37);
-    double falloff = smoothstep(0.0, 0.14, 1 - std::max(std::abs(ground.x), std::abs(ground.y)));
-    return falloff * (0.52 * range * peaks * peaks * 1.5 + hills + 0.03);
+    dvec3 p = warped({ground, 3.7}, 1.3, 0.20, 23);
+    double range = smoothstep(-0.50, 0.60, 0.8 * fractal(p * 1.2, 2, 21) + 0.75 * ground.y - 0.10 * ground.x + 0.05);
+    double peaks = ridges(p * 1.35, 6, 29), hills = 0.05 * fractal(p * 2.6, 4, 37);
+    return rimOf(ground) * (0.62 * range * peaks * peaks + (1 - 0.6 * range) * hills + 0.04);
 }
 
 inline dvec3 groundColor(const dvec2& ground, double height, double slope) {
     dvec3 p(ground, 0);
-    double patch = fractal(p * 9.0, 4, 41);
-    dvec3 grass = glm::mix(dvec3(0.30, 0.38, 0.17), dvec3(0.48, 0.46, 0.24), smoothstep(-0.3, 0.4, patch));
+    double patch = fractal(p * 9.0, 3, 41);
+    dvec3 grass = glm::mix(dvec3(0.20, 0.23, 0.13), dvec3(0.37, 0.35, 0.23), smoothstep(-0.3, 0.4, patch));
     dvec3 rock =
-        glm::mix(dvec3(0.40, 0.36, 0.33), dvec3(0.56, 0.52, 0.47), smoothstep(-0.4, 0.4, fractal(p * 30.0, 3, 43)));
-    dvec3 color = glm::mix(grass, rock, smoothstep(0.45, 0.85, slope + 0.25 * patch + 1.2 * height));
-    double snow = smoothstep(0.27, 0.34, height + 0.04 * patch - 0.05 * slope);
-    return glm::mix(color, dvec3(0.95, 0.96, 0.98), snow);
+        glm::mix(dvec3(0.36, 0.32, 0.29), dvec3(0.53, 0.49, 0.44), smoothstep(-0.4, 0.4, fractal(p * 24.0, 2, 43)));
+    dvec3 color = glm::mix(grass, rock, smoothstep(0.45, 0.80, slope + 0.3 * patch + 1.0 * height));
+    double snow = smoothstep(0.20, 0.27, height + 0.05 * patch - 0.06 * slope);
+    return glm::mix(color, dvec3(0.93, 0.95, 0.97), snow);
 }
 
 /// Mountains, and a sharp-sided box with a flat roof: what a smooth surface cannot do alone.
 inline Painting paintTerrain(const ivec2& size) {
-    constexpr double kRoof = 0.24, kWall = 0.0012; // the walls lean over this width
+    constexpr double kRoof = 0.22, kWall = 0.0012; // the walls lean over this width
     auto groundAt = [](const dvec2& st) { return 2.0 * st - 1.0; };
     Painting painting = paintSquare(size, [&](const dvec2& st) {
         dvec2 ground = groundAt(st);
@@ -118,7 +119,7 @@ inline Painting paintTerrain(const ivec2& size) {
             };
             dvec2 st((x + 0.5) / size.x, 1 - (y + 0.5) / size.y), ground = groundAt(st);
             dvec2 gradient = dvec2(h(x + 2, y) - h(x - 2, y), h(x, y + 2) - h(x, y - 2)) * (size.x / 8.0);
-            dvec3 color = groundColor(ground, h(x, y), glm::length(gradient));
+            dvec3 color = groundColor(ground, h(x, y), glm::length(gradient) * rimOf(ground));
             color = glm::mix(color, dvec3(0.78, 0.72, 0.64), smoothstep(0.004, 0.0, boxDistance(ground)));
             for (int c = 0; c < 3; ++c) painting.albedo.at(x, y)[c] = float(color[c]);
         }

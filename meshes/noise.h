@@ -29,6 +29,7 @@ public:
     explicit Random(std::uint32_t seed) : seed_(seed) {}
     double operator()() { return unit(scramble(seed_ * 0x9e3779b9u + scramble(count_++))); }
     double operator()(double low, double high) { return low + (high - low) * (*this)(); }
+    dvec3 inBox() { return {(*this)(-1, 1), (*this)(-1, 1), (*this)(-1, 1)}; } ///< braces: in this order everywhere
 
 private:
     std::uint32_t seed_, count_ = 0;

@@ -126,7 +126,7 @@ inline void OctopusSkin::strewPapillae() {
 inline void OctopusSkin::strewPapillae(int tries, double low, double high, double spacing) {
     for (int i = 0; i < tries; ++i) {
         int face = int(random_() * double(regions_.size()));
-        dvec2 uv(random_(), random_());
+        dvec2 uv{random_(), random_()};
         LimitFrame frame = surface_.limit(face, uv);
         if (random_() > glm::length(glm::cross(frame.pu, frame.pv)) / 0.06) continue; // even density over the area
         SkinPoint skin = placeOf({face, uv, {}, frame.p, {}});
