@@ -71,9 +71,9 @@ void addPicture(CLI::App& app, PictureArgs& args) {
         ->check(CLI::Range(1.0, 150.0))->option_text("F")->group("camera");
 
     app.add_option("--albedo", args.albedo, "color map (sRGB)")->option_text("MAP")->group("shading");
-    app.add_option("--color", args.color, "linear albedo, times the map (0.62,0.60,0.57; 1,1,1 with a map)")
+    app.add_option("--color", args.color, "linear albedo, times the map (0.52,0.50,0.47; 1,1,1 with a map)")
         ->delimiter(',')->expected(3)->check(CLI::Range(0.0, 1.0))->option_text("R,G,B")->group("shading");
-    app.add_option("--roughness", args.roughness, "of the surface, 0.05..1 (0.45)")
+    app.add_option("--roughness", args.roughness, "of the surface, 0.05..1 (0.4)")
         ->check(CLI::Range(0.05, 1.0))->option_text("R")->group("shading");
     app.add_option("--environment", args.environment, "equirectangular light: .hdr .exr (a neutral studio)")
         ->option_text("HDR")->group("shading");

@@ -37,7 +37,7 @@ struct PictureArgs {
     double distance = 0;
     std::string albedo, environment;
     std::vector<double> light, color;
-    double roughness = 0.45;
+    double roughness = 0.4;
     bool hasNoShadows = false;
     std::vector<double> background;
     bool isTransparent = false;

@@ -118,10 +118,10 @@ double softBox(const dvec3& d, double azimuth, double elevation, double halfWidt
 dvec3 studioLight(const dvec3& d) {
     const dvec3 sky = glm::mix(dvec3(0.50, 0.52, 0.55), dvec3(0.95, 1.0, 1.08), glm::smoothstep(-0.05, 0.9, d.y));
     const dvec3 floor = glm::mix(dvec3(0.50, 0.52, 0.55), dvec3(0.20, 0.18, 0.165), glm::smoothstep(0.05, -0.5, d.y));
-    dvec3 light = 0.55 * (d.y > 0 ? sky : floor);
-    light += dvec3(3.2, 3.1, 2.95) * softBox(d, -60, 35, 0.55, 0.45);  // the large soft box, upper left
+    dvec3 light = 0.34 * (d.y > 0 ? sky : floor);
+    light += dvec3(2.1, 2.05, 1.95) * softBox(d, -60, 35, 0.55, 0.45);  // the large soft box, upper left
     light += dvec3(1.6, 1.75, 2.0) * softBox(d, 125, 25, 0.25, 0.7);   // a cool strip behind, for the rim
-    light += dvec3(1.0, 1.0, 1.0) * softBox(d, 0, 88, 0.8, 0.5);       // overhead
+    light += dvec3(0.7, 0.7, 0.7) * softBox(d, 0, 88, 0.8, 0.5);       // overhead
     return light;
 }
 

@@ -118,14 +118,14 @@ Environment loadEnvironment(const std::string& path);
 
 struct Lighting {
     double keyAzimuth = -25, keyElevation = 50; ///< degrees, as the camera's
-    double keyStrength = 2.6;               ///< radiance times pi of the key light
+    double keyStrength = 2.9;               ///< radiance times pi of the key light
     bool castsShadows = true;
     const Environment* environment = nullptr;
 };
 
 struct Material {
-    vec3 albedo{0.62f, 0.60f, 0.57f};       ///< linear; multiplies the albedo map where there is one
-    float roughness = 0.45f;
+    vec3 albedo{0.52f, 0.50f, 0.47f};       ///< linear; multiplies the albedo map where there is one
+    float roughness = 0.4f; 
 };
 
 // --- pictures -----------------------------------------------------------------------------------------------------
