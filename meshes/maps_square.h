@@ -104,13 +104,13 @@ inline dvec3 groundColor(const dvec2& ground, double height, double slope) {
 
 /// Mountains, and a sharp-sided box with a flat roof: what a smooth surface cannot do alone.
 inline Painting paintTerrain(const ivec2& size) {
-    constexpr double kRoof = 0.22, kWall = 0.0012; // the walls lean over this width
+    constexpr double kRoof = 0.22, kWall = 0.0024; // the walls lean outwards over this width
     auto groundAt = [](const dvec2& st) { return 2.0 * st - 1.0; };
     Painting painting = paintSquare(size, [&](const dvec2& st) {
         dvec2 ground = groundAt(st);
         double toWall = boxDistance(ground), level = smoothstep(0.10, 0.02, toWall); // a terrace to stand on
         double height = glm::mix(mountainHeight(ground), 0.06, level);
-        return Paint{glm::mix(height, kRoof, smoothstep(kWall, -kWall, toWall)), {}};
+        return Paint{glm::mix(height, kRoof, smoothstep(kWall, 0.0, toWall)), {}};
     });
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) {

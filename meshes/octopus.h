@@ -23,8 +23,6 @@ struct OctopusBuilder {
     [[nodiscard]] Loop blockLoop(int row, int column, int rows, int columns) const;
 };
 
-constexpr int kSiphonRow = 7, kSiphonColumn = 6;
-
 /// True where a quad of the shell makes room for an eye, the siphon or an arm.
 inline bool isGap(int row, int column) {
     if (row == 0) return column % 3 != 0;
@@ -145,16 +143,16 @@ inline void OctopusBuilder::addSiphon() {
     struct Ring {
         double ahead, radius;
     };
-    constexpr Ring kRings[] = {{0.07, 0.115}, {0.17, 0.098}, {0.27, 0.098}, {0.30, 0.080}, {0.26, 0.062}, {0.14, 0.05}};
+    constexpr Ring kRings[] = {{0.07, 0.125},  {0.18, 0.105}, {0.30, 0.112},
+                               {0.325, 0.092}, {0.28, 0.072}, {0.14, 0.055}};
     std::vector<Loop> loops{blockLoop(kSiphonRow, kSiphonColumn, 1, 2)};
-    dvec3 root = centerOf(cage, loops[0]), bend(0, -0.3, 0.6);
-    double azimuth = radians(columnAzimuth(kSiphonColumn + 1));
-    dvec3 out(std::sin(azimuth), 0, std::cos(azimuth)), previous = root;
+    Siphon siphon = octopusSiphon();
+    dvec3 previous = siphon.root;
     std::vector<double> heights{0};
     for (const Ring& ring : kRings) {
-        double amount = ring.ahead / 0.3;
-        dvec3 middle = root + out * ring.ahead + bend * (0.3 * amount * amount);
-        dvec3 along = glm::normalize(out + 2 * amount * bend);
+        double t = ring.ahead;
+        dvec3 middle = siphon.root + t * siphon.out + t * t * siphon.bend;
+        dvec3 along = glm::normalize(siphon.out + 2 * t * siphon.bend);
         dvec3 side = glm::normalize(glm::cross(dvec3(0, 1, 0), along)), up = glm::cross(along, side);
         loops.push_back(addSixLoop(cage, {middle, side, up, ring.radius, ring.radius}));
         heights.push_back(heights.back() + std::max(0.035, glm::distance(middle, previous)));

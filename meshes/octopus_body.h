@@ -61,6 +61,18 @@ inline Eye octopusEye(int index) {
     return {ringPoint(bodyRings()[kEyeRow], kEyeColumns[index]), axis, right, glm::cross(axis, right)};
 }
 
+/// The funnel leaves the neck between two rings, two columns wide.
+constexpr int kSiphonRow = 7, kSiphonColumn = 6;
+struct Siphon {
+    dvec3 root, out, bend; ///< its axis: root + t out + t^2 bend, t = 0..0.3 at the mouth
+};
+inline Siphon octopusSiphon() {
+    double azimuth = radians(columnAzimuth(kSiphonColumn + 1));
+    dvec3 below = ringPoint(bodyRings()[kSiphonRow], kSiphonColumn + 1);
+    dvec3 above = ringPoint(bodyRings()[kSiphonRow + 1], kSiphonColumn + 1);
+    return {0.5 * (below + above), {std::sin(azimuth), 0, std::cos(azimuth)}, dvec3(0, -1, 2)};
+}
+
 /// A turn around an eye: radius, height above the eye's centre along its axis, and how far its upper half hangs down.
 struct EyeRing {
     double radius, height, droop;

@@ -17,6 +17,7 @@ struct SkinPoint {
     double size = 1;       ///< detail is so much smaller on the thin parts of the arms
     int eye = 0;           ///< the nearer one
     double eyeAxis = 9;    ///< distance from its axis
+    double calm = 1;       ///< 0 on eyes, low on the siphon: rough skin keeps away from them
     double groove = 0;     ///< 1 between the plates of the skin, 0 on them
     double dome = 0;       ///< the plates' own roundness, 0..1
     double wart = 0;       ///< height of a papilla, cage units
@@ -43,10 +44,12 @@ private:
     void strewPapillae();
     void strewPapillae(int tries, double low, double high, double spacing);
     [[nodiscard]] SkinPoint placeOf(const SurfacePoint& point) const;
+    [[nodiscard]] double siphonDistance(const dvec3& p) const;
 
     const ReferenceSurface& surface_;
     std::vector<Region> regions_; ///< by face
     std::array<Eye, 2> eyes_{octopusEye(0), octopusEye(1)};
+    Siphon siphon_ = octopusSiphon();
     std::vector<Stamps> suckers_{kArmCount, Stamps(0.1, 1.3)};
     Stamps papillae_{0.1, 3.2};
     Random random_{11};
@@ -90,7 +93,15 @@ inline SkinPoint OctopusSkin::placeOf(const SurfacePoint& point) const {
         double height = glm::dot(d, eyes_[i].axis), away = glm::length(d - height * eyes_[i].axis);
         if (std::abs(height) < 0.6 && away < skin.eyeAxis) skin.eyeAxis = away, skin.eye = i;
     }
+    skin.calm =
+        smoothstep(0.19, 0.27, skin.eyeAxis) * glm::mix(0.15, 1.0, smoothstep(0.14, 0.30, siphonDistance(point.p)));
     return skin;
+}
+
+/// From the funnel's axis.
+inline double OctopusSkin::siphonDistance(const dvec3& p) const {
+    double t = glm::clamp(glm::dot(p - siphon_.root, siphon_.out), -0.1, 0.4);
+    return glm::distance(p, siphon_.root + t * siphon_.out + t * t * siphon_.bend);
 }
 
 /// Two staggered rows under each arm; their size follows the arm's.
@@ -131,7 +142,7 @@ inline void OctopusSkin::strewPapillae(int tries, double low, double high, doubl
         if (random_() > glm::length(glm::cross(frame.pu, frame.pv)) / 0.06) continue; // even density over the area
         SkinPoint skin = placeOf({face, uv, {}, frame.p, {}});
         double radius = random_(low, high) * skin.size, crowd = fractal(frame.p * 1.7, 2, 31);
-        if (skin.belly > 0.25 || skin.eyeAxis < 0.30 || crowd < random_(-0.4, 0.3)) continue;
+        if (skin.belly > 0.25 || skin.eyeAxis < 0.30 || skin.calm < 0.7 || crowd < random_(-0.4, 0.3)) continue;
         if (papillae_.isFree(frame.p, radius, spacing)) papillae_.add({frame.p, radius, {}, random_(), 0});
     }
 }
@@ -140,7 +151,7 @@ inline SkinPoint OctopusSkin::at(const SurfacePoint& point) const {
     SkinPoint skin = placeOf(point);
     Cells cell = cells(warped(point.p, 5, 0.05, 41) * 12.0, 43);
     skin.groove = 1 - smoothstep(0.02, 0.25, cell.second - cell.nearest);
-    skin.dome = smoothstep(0.0, 0.6, cell.second - cell.nearest);
+    skin.dome = std::max(0.0, 1 - 1.3 * cell.nearest * cell.nearest) * smoothstep(0.0, 0.4, cell.second - cell.nearest);
     papillae_.forEachNear(point.p, [&](const Stamp& wart, double x) {
         double tall = 0.45 + 0.45 * wart.luck;
         skin.wart = std::max(skin.wart, wart.radius * tall * bump(x));
@@ -186,13 +197,13 @@ inline double eyeFolds(double eyeAxis) {
 }
 
 inline double OctopusSkin::height(const SkinPoint& skin) {
-    double calm = smoothstep(0.19, 0.27, skin.eyeAxis), upper = 1 - smoothstep(0.2, 0.7, skin.belly);
+    double upper = 1 - smoothstep(0.2, 0.7, skin.belly);
     double bare = smoothstep(-0.25, 0.15, fractal(skin.p * 1.3, 2, 63)); // some patches are smoother than others
-    double plates = (0.008 + 0.016 * bare) * skin.size * skin.dome + 0.005 * skin.size * fractal(skin.p * 28.0, 2, 61);
+    double plates = (0.010 + 0.020 * bare) * skin.size * skin.dome + 0.005 * skin.size * fractal(skin.p * 28.0, 2, 61);
     double detail = skinFolds(skin) * (0.35 + 0.65 * upper) + plates * (0.3 + 0.7 * upper) + eyeFolds(skin.eyeAxis);
     double sucker = skin.suckerSize > 0 ? skin.suckerSize * suckerProfile(skin.sucker) : 0;
     double tip = 1 - smoothstep(kArmRows - 4, kArmRows - 1.5, skin.row);
-    return tip * (calm * (detail + skin.wart) + sucker);
+    return tip * (skin.calm * (detail + skin.wart) + sucker);
 }
 
 } // namespace relief::meshes
