@@ -1,5 +1,123 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
 #include "app/commands.h"
 
 namespace relief::app {
-Run addInfo(CLI::App&) { return [] { return 0; }; }
+namespace {
+
+using nlohmann::json;
+
+struct InfoArgs {
+    std::vector<std::string> files;
+    bool listsDevices = false, isJson = false, isQuiet = false;
+};
+
+json ofBounds(const Bounds& b) {
+    return {{"lower", {b.lower.x, b.lower.y, b.lower.z}}, {"upper", {b.upper.x, b.upper.y, b.upper.z}}, {"diagonal", b.diagonal()}};
+}
+
+json ofCage(const std::string& path, const Warn& warn) {
+    const Cage cage = readCage(path, warn);
+    const CageSummary s = summarize(cage);
+    json parts = json::array();
+    for (const CagePart& part : cage.parts) parts.push_back({{"name", part.name}, {"material", part.material}, {"faces", part.faceCount}});
+    return {{"file", path}, {"kind", "cage"}, {"vertices", s.vertexCount}, {"faces", s.faceCount}, {"edges", s.edgeCount},
+            {"triangles", s.triangleCount}, {"quads", s.quadCount}, {"n-gons", s.otherFaceCount},
+            {"boundary edges", s.boundaryEdgeCount}, {"non-manifold edges", s.nonManifoldEdgeCount},
+            {"extraordinary vertices", s.irregularVertexCount}, {"max valence", s.maxValence},
+            {"unused vertices", s.unusedVertexCount}, {"creased edges", s.creasedEdgeCount},
+            {"sharp vertices", s.sharpVertexCount}, {"holes", s.holeCount}, {"texture coordinates", s.texCoordCount},
+            {"seam edges", s.seamEdgeCount}, {"bytes", cage.byteCount()}, {"bounds", ofBounds(s.bounds)}, {"parts", parts}};
+}
+
+json ofPicture(const std::string& path) {
+    const ImageInfo info = readImageInfo(path);
+    json result{{"file", path}, {"kind", "picture"}, {"format", info.format}, {"width", info.width}, {"height", info.height},
+                {"sample", info.sample}, {"channels", info.channelNames},
+                {"bytes", std::uint64_t(info.width) * info.height * info.channels * info.sampleBytes},
+                {"default mid", info.isFloat ? 0.0 : 0.5}};
+    const Image image = readImage(path);
+    json ranges = json::array();
+    for (int c = 0; c < image.channels; ++c) {
+        float lowest = image.texels[c], highest = lowest;
+        for (std::size_t i = c; i < image.texels.size(); i += image.channels) {
+            lowest = std::min(lowest, image.texels[i]);
+            highest = std::max(highest, image.texels[i]);
+        }
+        ranges.push_back({lowest, highest});
+    }
+    result["ranges"] = ranges;
+    return result;
+}
+
+json ofDevices() {
+    json list = json::array();
+    for (const DeviceTraits& t : listDevices())
+        list.push_back({{"device", t.name}, {"driver", t.driver}, {"vulkan", t.api}, {"cpu", t.isCpu},
+                        {"tessellation shaders", t.hasTessellation}, {"largest tessellation level", t.maxTessellationLevel},
+                        {"wireframe", t.hasWireframe}, {"largest image side", t.maxImageSide}, {"memory", t.heapBytes},
+                        {"times passes", t.timestampNanoseconds > 0},
+                        {"tessellated vertices a draw", t.tessellatedVerticesPerDraw}});
+    return list;
+}
+
+bool isCage(const std::string& path) { return path.ends_with(".obj") || path.ends_with(".OBJ"); }
+
+std::string text(const json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (!value.is_structured()) return value.dump();
+    std::string joined;
+    for (const auto& [key, item] : value.items())
+        joined += (joined.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + text(item);
+    return value.is_array() ? "(" + joined + ")" : joined;
+}
+
+/// One `name  value` a line; what is zero or empty is left out.
+void print(const json& object) {
+    for (const auto& [key, value] : object.items()) {
+        const bool isNothing = (value.is_number() && value.get<double>() == 0 && key != "default mid") || (value.is_array() && value.empty());
+        if (isNothing) continue;
+        const bool isSize = key == "bytes" || key == "memory";
+        std::cout << fmt::format("  {:28} {}\n", key, isSize ? humanBytes(value.get<std::uint64_t>()) : text(value));
+    }
+}
+
+int info(const InfoArgs& args) {
+    if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info wants files, or --devices");
+    const Warn warn = args.isQuiet ? Warn([](const std::string&) {}) : Warn(warnOnStderr);
+    json all = json::array();
+    for (const std::string& file : args.files) all.push_back(isCage(file) ? ofCage(file, warn) : ofPicture(file));
+    if (args.listsDevices)
+        for (json& device : ofDevices()) all.push_back(std::move(device));
+    if (args.isJson) {
+        std::cout << all.dump(2) << '\n';
+        return 0;
+    }
+    for (const json& object : all) {
+        const char* title = object.contains("file") ? "file" : "device";
+        std::cout << object[title].get<std::string>() << '\n';
+        json rest = object;
+        rest.erase(title);
+        print(rest);
+    }
+    return 0;
+}
+
+} // namespace
+
+Run addInfo(CLI::App& app) {
+    auto args = std::make_shared<InfoArgs>();
+    app.add_option("files", args->files, "cages (.obj), height maps, pictures")->option_text("FILE...");
+    app.add_flag("--devices", args->listsDevices, "the Vulkan devices of this machine");
+    app.add_flag("--json", args->isJson, "print as JSON on stdout");
+    app.add_flag("-q,--quiet", args->isQuiet, "no warnings");
+    app.footer("examples:\n"
+               "  relief info cage.obj heights.exr\n"
+               "  relief info --devices");
+    return [args] { return info(*args); };
+}
+
 } // namespace relief::app

@@ -73,18 +73,19 @@ void report(const RenderArgs& args, const Loaded& loaded, const Device& device, 
                                     {"triangles", stats.triangleCount}, {"faces", stats.faceCount},
                                     {"draws", stats.drawCount}, {"max_rate", stats.maxRate},
                                     {"cage_bytes", loaded.cage.byteCount()}, {"map_bytes", mapBytes},
+                                    {"vertices", stats.vertexCount}, {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
                                     {"device_bytes", model.byteCount()}, {"load_ms", 1e3 * loaded.loadSeconds},
                                     {"surface_ms", 1e3 * loaded.surfaceSeconds}, {"table_ms", 1e3 * loaded.surface.tableSeconds},
-                                    {"rate_ms", stats.rateMs}, {"shadow_ms", stats.shadowMs}, {"color_ms", stats.colorMs},
+                                    {"rate_ms", stats.rateMs}, {"shadow_ms", stats.shadowMs}, {"color_ms", stats.colorMs}, {"light_ms", stats.lightMs},
                                     {"frame_ms", stats.wallMs}}.dump(2) << '\n';
     } else if (!args.output.isQuiet) {
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
                                  device.traits().name);
         if (args.output.isVerbose)
             std::cerr << fmt::format("load {:.0f} ms, surface {:.0f} ms (OpenSubdiv {:.0f}), rates {:.1f} ms, shadow {:.1f} ms, "
-                                     "color {:.1f} ms, {} faces in {} draws, rate up to {}, {} on the device\n",
+                                     "color {:.1f} ms, light {:.1f} ms, {} faces in {} draws, rate up to {}, {} on the device\n",
                                      1e3 * loaded.loadSeconds, 1e3 * loaded.surfaceSeconds, 1e3 * loaded.surface.tableSeconds,
-                                     stats.rateMs, stats.shadowMs, stats.colorMs, stats.faceCount, stats.drawCount,
+                                     stats.rateMs, stats.shadowMs, stats.colorMs, stats.lightMs, stats.faceCount, stats.drawCount,
                                      stats.maxRate, humanBytes(model.byteCount()));
     }
 }

@@ -1,5 +1,101 @@
+#include <charconv>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
 #include "app/commands.h"
 
 namespace relief::app {
-Run addSample(CLI::App&) { return [] { return 0; }; }
+namespace {
+
+struct SampleArgs {
+    SurfaceArgs surface;
+    Output output;
+    std::string points, target, normal = "full", device;
+};
+
+constexpr std::string_view kHeader = "face,u,v,px,py,pz,pux,puy,puz,pvx,pvy,pvz,nx,ny,nz,h,qx,qy,qz,mx,my,mz\n";
+constexpr std::size_t kRowsAtOnce = 1u << 18; // keeps the device's buffers below 40 MB
+
+template <typename T>
+bool parseField(const char*& at, const char* end, T& value) {
+    while (at != end && *at == ' ') ++at;
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc()) return false;
+    for (at = next; at != end && (*at == ' ' || *at == '\r'); ++at) {}
+    return true;
+}
+
+bool parseRow(std::string_view line, SampleQuery& query) {
+    const char *at = line.data(), *end = at + line.size();
+    return parseField(at, end, query.face) && at != end && *at++ == ',' && parseField(at, end, query.uv.x) && at != end &&
+           *at++ == ',' && parseField(at, end, query.uv.y) && at == end;
+}
+
+/// Rows face,u,v; a first line that does not start with a number is a header.
+std::vector<SampleQuery> readPoints(const std::string& path) {
+    const std::string text = readFile(path);
+    std::vector<SampleQuery> queries;
+    std::size_t lineNumber = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string_view line = std::string_view(text).substr(at, end - at);
+        at = end + 1;
+        ++lineNumber;
+        const bool isHeader = lineNumber == 1 && line.starts_with("face");
+        if (isHeader || line.empty() || line == "\r") continue;
+        SampleQuery query{};
+        if (!parseRow(line, query)) fail(Failure::input, "{}:{}: a row is face,u,v, for example 12,0.5,0.25", path, lineNumber);
+        queries.push_back(query);
+    }
+    return queries;
+}
+
+void appendRow(std::string& text, const SampleQuery& query, const SampleResult& r) {
+    auto out = std::back_inserter(text);
+    out = fmt::format_to(out, "{},{:.9g},{:.9g}", query.face, query.uv.x, query.uv.y);
+    for (const vec3& v : {r.p, r.pu, r.pv, r.n}) out = fmt::format_to(out, ",{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
+    out = fmt::format_to(out, ",{:.9g}", r.h);
+    for (const vec3& v : {r.q, r.m}) out = fmt::format_to(out, ",{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
+    text += '\n';
+}
+
+int sample(const SampleArgs& args) {
+    const std::vector<SampleQuery> queries = readPoints(args.points);
+    const Loaded loaded = load(args.surface, args.output);
+    if (loaded.dense) fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.surface.cage);
+    Device device({.name = args.device});
+    const Model model(device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    Progress progress("sampling", queries.size(), args.output.progress);
+    std::string text(kHeader);
+    for (std::size_t first = 0; first < queries.size(); first += kRowsAtOnce) {
+        const auto part = std::span(queries).subspan(first, std::min(kRowsAtOnce, queries.size() - first));
+        const std::vector<SampleResult> results =
+            sampleSurface(device, model, part, {.firstRow = first, .normal = normalKind(args.normal)});
+        for (std::size_t i = 0; i < part.size(); ++i) appendRow(text, part[i], results[i]);
+        progress.advance(part.size());
+    }
+    writeWhole(args.target, [&](const std::string& temporary) { writeFile(temporary, text); });
+    if (args.output.isJson)
+        std::cout << nlohmann::json{{"rows", queries.size()}, {"device", device.traits().name}, {"output", args.target}}.dump(2) << '\n';
+    return 0;
+}
+
+} // namespace
+
+Run addSample(CLI::App& app) {
+    auto args = std::make_shared<SampleArgs>();
+    addSurface(app, args->surface);
+    app.add_option("--at", args->points, "rows face,u,v: ptex face and its own coordinates")->required()->option_text("POINTS.csv");
+    app.add_option("-o,--output", args->target, "rows with the frame of each point")->required()->option_text("F.csv");
+    app.add_option("--normal", args->normal, "what m is: limit, first-order or full (full)")
+        ->check(CLI::IsMember({"limit", "first-order", "full"}))->option_text("KIND");
+    app.add_option("--device", args->device, "part of the name of the Vulkan device to use")->option_text("NAME")->group("device");
+    addOutput(app, args->output);
+    app.footer("columns: p limit point, pu and pv its derivatives, n normal, h height, q displaced point, m its normal\n"
+               "example:\n"
+               "  relief sample cage.obj --height map.exr --at points.csv -o frames.csv");
+    return [args] { return sample(*args); };
+}
+
 } // namespace relief::app

@@ -33,6 +33,9 @@ ObjScan scanObj(std::string_view text, const std::string& name, const Warn& warn
 /// are warned of once a name.
 void applyObjTags(const std::vector<ObjTag>& tags, Cage& cage, const std::string& name, const Warn& warn);
 
+/// A word of the file as it may stand in a message: short and printable.
+std::string quoted(std::string_view word);
+
 /// Throws Failure::input as "NAME:LINE: ...".
 template <typename... Args>
 [[noreturn]] void failAtLine(const std::string& name, std::size_t line, fmt::format_string<Args...> format,

@@ -36,6 +36,9 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
+/// A backslash at the end joins the next line, but not when it ends a comment.
+bool isContinued(std::string_view line) { return line.ends_with('\\') && line.find('#') == std::string_view::npos; }
+
 std::string_view firstWord(std::string_view text) { return text.substr(0, text.find_first_of(kSpaces)); }
 
 template <typename Number>
@@ -101,22 +104,21 @@ ObjScan ObjScanner::scan(std::string_view text) {
     for (std::size_t nextLine = 1; !text.empty();) {
         line_ = nextLine++;
         std::string_view line = takeLine(text);
-        const bool isComment = trimmed(line).starts_with('#');
-        if (line.ends_with('\\') && !isComment) {
+        if (isContinued(line)) {
             joined.clear();
             for (; line.ends_with('\\') && !text.empty(); line = takeLine(text), ++nextLine)
                 joined.append(line.substr(0, line.size() - 1)).push_back(' ');
             joined.append(line.substr(0, line.find_last_not_of('\\') + 1));
             line = joined;
         }
-        if (!isComment) scanLine(trimmed(line));
+        scanLine(trimmed(line));
     }
     finish();
     return std::move(result_);
 }
 
 void ObjScanner::scanLine(std::string_view line) {
-    if (line.empty()) return;
+    if (line.empty() || line[0] == '#') return;
     if (line.find('\0') != std::string_view::npos)
         failHere("there is a zero byte in this line; save the file as plain UTF-8 text");
     const std::string_view keyword = firstWord(line);
@@ -182,14 +184,14 @@ void ObjScanner::scanCorner(std::string_view corner, std::array<bool, kindCount>
         if (field.size() == rest.size()) return;
         rest.remove_prefix(field.size() + 1);
     }
-    failHere("'{}' has more than three indices; a corner is vertex/texture/normal", corner);
+    failHere("{} has more than three indices; a corner is vertex/texture/normal", quoted(corner));
 }
 
 /// The index from 0. Negative ones count back from the latest value; positive ones may name values still to come.
 std::size_t ObjScanner::resolveIndex(Kind kind, std::string_view word) {
     Values& values = values_[kind];
     const std::optional<int> index = parseNumber<int>(word);
-    if (!index) failHere("'{}' is not a {} index; write a whole number", word, kKindNames[kind]);
+    if (!index) failHere("{} is not a {} index; write a whole number", quoted(word), kKindNames[kind]);
     if (*index == 0) failHere("{} index 0 does not exist; a face's indices count from 1", kKindNames[kind]);
     if (*index < 0) {
         const std::size_t back = std::size_t(-std::int64_t(*index));
@@ -234,12 +236,12 @@ void ObjScanner::scanTag() {
     const std::size_t expected = counts[0] + counts[1] + counts[2];
     const std::span<const std::string_view> values = std::span(words_).subspan(2);
     if (values.size() != expected)
-        failHere("tag '{}' announces {} values, {} follow", words_[0], expected, values.size());
+        failHere("tag {} announces {} values, {} follow", quoted(words_[0]), expected, values.size());
 
     ObjTag tag{.line = line_, .name = std::string(words_[0]), .ints = {}, .floats = {}, .strings = {}};
     for (const std::string_view word : values.first(counts[0])) {
         const std::optional<int> value = parseNumber<int>(word);
-        if (!value) failHere("'{}' is not a whole number", word);
+        if (!value) failHere("{} is not a whole number", quoted(word));
         tag.ints.push_back(*value);
     }
     for (const std::string_view word : values.subspan(counts[0], counts[1])) tag.floats.push_back(scanFloat(word));
@@ -255,7 +257,7 @@ std::array<std::size_t, 3> ObjScanner::scanTagSizes(std::string_view sizes) cons
         const std::optional<std::uint32_t> count = parseNumber<std::uint32_t>(field);
         const bool isLast = field.size() == rest.size();
         if (!count || isLast != (type == 2))
-            failHere("'{}' are not the sizes of a tag; write ints/floats/strings, such as 2/1/0", sizes);
+            failHere("{} are not the sizes of a tag; write ints/floats/strings, such as 2/1/0", quoted(sizes));
         counts[type] = *count;
         rest.remove_prefix(isLast ? field.size() : field.size() + 1);
     }
@@ -265,8 +267,8 @@ std::array<std::size_t, 3> ObjScanner::scanTagSizes(std::string_view sizes) cons
 /// A number that is finite as a float.
 float ObjScanner::scanFloat(std::string_view word) const {
     const std::optional<double> value = parseNumber<double>(word);
-    if (!value || !(std::abs(*value) <= std::numeric_limits<float>::max()))
-        failHere("'{}' is not a finite number; write digits with a decimal point", word);
+    if (!value || !std::isfinite(float(*value)))
+        failHere("{} is not a finite number; write digits with a decimal point", quoted(word));
     return float(*value);
 }
 
@@ -285,7 +287,8 @@ void ObjScanner::keepWords(std::string_view keyword) {
 }
 
 void ObjScanner::warnOnce(std::string_view keyword) {
-    if (warnedOf_.emplace(keyword).second) warn_(fmt::format("{}:{}: lines '{}' are not read", name_, line_, keyword));
+    if (warnedOf_.emplace(keyword).second)
+        warn_(fmt::format("{}:{}: lines {} are not read", name_, line_, quoted(keyword)));
 }
 
 void ObjScanner::finish() {
@@ -307,6 +310,14 @@ void ObjScanner::finish() {
 }
 
 } // namespace
+
+std::string quoted(std::string_view word) {
+    constexpr std::size_t kLongest = 40;
+    std::string text = "'" + std::string(word.substr(0, kLongest)) + (word.size() > kLongest ? "...'" : "'");
+    for (char& letter : text)
+        if (static_cast<unsigned char>(letter) < ' ' || letter == '\x7f') letter = '?';
+    return text;
+}
 
 ObjScan scanObj(std::string_view text, const std::string& name, const Warn& warn) {
     return ObjScanner(name, warn).scan(text);

@@ -14,6 +14,11 @@ namespace relief {
 
 // --- models on the device -----------------------------------------------------------------------------------------
 
+/// What a mesh costs as floats: position, normal and texture coordinates a vertex, three 32-bit indices a triangle.
+constexpr std::uint64_t denseBytes(std::uint64_t vertexCount, std::uint64_t triangleCount) {
+    return 32 * vertexCount + 12 * triangleCount;
+}
+
 /// Triangles with one normal and one texture coordinate a vertex.
 struct DenseMesh {
     std::vector<vec3> positions, normals;
@@ -48,8 +53,10 @@ public:
     [[nodiscard]] bool isDense() const { return isDense_; }
     [[nodiscard]] const Buffer& indices() const { return indices_; } ///< of a dense mesh
     [[nodiscard]] std::uint32_t indexCount() const { return indexCount_; }
+    [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; } ///< of a dense mesh
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
     [[nodiscard]] std::size_t edgeCount() const { return edgeIsHalf_.size(); }
+    [[nodiscard]] std::size_t cornerCount() const { return cornerCount_; }
     [[nodiscard]] int sideCount() const { return sideCount_; }
     [[nodiscard]] bool isTriangles() const { return sideCount_ == 3; }
     [[nodiscard]] bool hasTexCoords() const { return hasTexCoords_; }
@@ -71,7 +78,8 @@ private:
     std::uint32_t firstPatchPoint_ = 0, firstTexPatchPoint_ = 0;
     std::vector<Face> faces_;
     std::vector<bool> edgeIsHalf_;
-    std::uint32_t indexCount_ = 0;
+    std::size_t cornerCount_ = 0;
+    std::uint32_t indexCount_ = 0, vertexCount_ = 0;
     int sideCount_ = 4;
     glm::ivec2 mapSize_{0};
     float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0;
@@ -150,6 +158,7 @@ struct RenderOptions {
 
 struct FrameStats {
     std::uint64_t triangleCount = 0, faceCount = 0;
+    std::uint64_t vertexCount = 0;          ///< distinct samples of the surface: what a dense mesh would store
     std::uint32_t drawCount = 0, maxRate = 0;
     double rateMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0; ///< on the device; 0 where it cannot time
     double wallMs = 0;                      ///< rates to pixels on the host
@@ -176,7 +185,7 @@ struct DrawBatch {
 struct DrawPlan {
     std::vector<std::uint32_t> faces;
     std::vector<DrawBatch> batches;
-    std::uint64_t triangleCount = 0;
+    std::uint64_t triangleCount = 0, vertexCount = 0;
     std::uint32_t maxRate = 0;
 };
 
@@ -213,8 +222,14 @@ void writePicture(const std::string& path, const Picture& picture, const Finish&
 
 // --- single points ------------------------------------------------------------------------------------------------
 
+struct SampleOptions {
+    std::size_t firstRow = 0;               ///< number of the first query, for messages
+    NormalKind normal = NormalKind::full;
+    bool isGenericBasis = false;            ///< OpenSubdiv's own basis for all patches: slower, the check of the others
+};
+
 /// The device's own frames at (face,u,v). Throws Failure::input for a face out of range, a hole, or (u,v) outside it.
 std::vector<SampleResult> sampleSurface(Device& device, const Model& model, std::span<const SampleQuery> queries,
-                                        NormalKind normal = NormalKind::full, bool isGenericBasis = false);
+                                        const SampleOptions& options = {});
 
 } // namespace relief

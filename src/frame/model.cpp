@@ -103,6 +103,7 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     texPoints_ = uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT, std::as_bytes(std::span(s.texPoints)));
     mesh_ = uploadTexels(device, {.name = "no mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
     faces_ = s.faces;
+    cornerCount_ = s.corners.size();
     sideCount_ = s.sideCount;
     hasTexCoords_ = s.hasTexCoords();
     edgeIsHalf_.assign(s.edges.size(), false);
@@ -129,6 +130,7 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     words_ = uploadTexels(device, {.name = "no words"}, VK_FORMAT_R32_UINT, {});
     indices_ = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     indexCount_ = std::uint32_t(mesh.indices.size());
+    vertexCount_ = std::uint32_t(mesh.positions.size());
     hasTexCoords_ = !mesh.texCoords.empty();
     isDense_ = true;
 }

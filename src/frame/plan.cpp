@@ -24,6 +24,16 @@ SideRates sideRates(const Model& model, const Face& face, std::span<const std::u
 /// The tessellator's concentric triangles, all sides with n segments.
 std::uint64_t evenTriangle(std::uint64_t n) { return n % 2 == 0 ? 3 * n * n / 2 : (3 * n * n - 1) / 2; }
 
+/// Vertices inside a tessellated triangle with n segments a side: the ring of the triangle two segments smaller, and so on.
+std::uint64_t insideTriangle(std::uint64_t n) { return n < 3 ? n - 1 : 3 * (n - 2) + (n == 3 ? 0 : insideTriangle(n - 2)); }
+
+/// Corners and samples along edges, each once whatever faces share them.
+std::uint64_t sharedVertices(const Model& model, std::span<const std::uint32_t> edgeRates) {
+    std::uint64_t count = model.cornerCount();
+    for (const std::uint32_t rate : edgeRates) count += rate - 1;
+    return count;
+}
+
 } // namespace
 
 std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
@@ -40,6 +50,7 @@ std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
 
 DrawPlan planPatches(const Model& model, std::span<const std::uint32_t> edgeRates, std::uint32_t verticesPerDraw) {
     DrawPlan plan;
+    plan.vertexCount = sharedVertices(model, edgeRates);
     std::uint64_t vertices = 0;
     for (std::uint32_t f = 0; f < model.faces().size(); ++f) {
         const Face& face = model.faces()[f];
@@ -54,6 +65,10 @@ DrawPlan planPatches(const Model& model, std::span<const std::uint32_t> edgeRate
         ++plan.batches.back().faceCount;
         plan.faces.push_back(f);
         plan.triangleCount += tessellatedTriangles({sides.rates, std::size_t(model.sideCount())});
+        const std::uint64_t m = std::max(sides.rates[0], sides.rates[2]), n = std::max(sides.rates[1], sides.rates[3]);
+        plan.vertexCount += model.isTriangles() ? insideTriangle(sides.largest)
+                            : sides.largest == 1 ? 0
+                                                 : (std::max<std::uint64_t>(m, 2) - 1) * (std::max<std::uint64_t>(n, 2) - 1);
         plan.maxRate = std::max(plan.maxRate, sides.largest);
     }
     return plan;
@@ -64,10 +79,14 @@ DrawPlan planGrids(const Model& model, std::span<const std::uint32_t> edgeRates)
     for (std::uint32_t f = 0; f < model.faces().size(); ++f)
         if (model.faces()[f].root != kNoPatch) groups[sideRates(model, model.faces()[f], edgeRates).largest].push_back(f);
     DrawPlan plan;
+    plan.vertexCount = sharedVertices(model, edgeRates);
     for (const auto& [rate, faces] : groups) {
         plan.batches.push_back({rate, std::uint32_t(plan.faces.size()), std::uint32_t(faces.size())});
         plan.faces.insert(plan.faces.end(), faces.begin(), faces.end());
         plan.triangleCount += faces.size() * std::uint64_t(rate) * rate * (model.isTriangles() ? 1 : 2);
+        const std::uint64_t inside = model.isTriangles() ? std::uint64_t(rate - 1) * (std::max(rate, 2u) - 2) / 2
+                                                         : std::uint64_t(rate - 1) * (rate - 1);
+        plan.vertexCount += faces.size() * inside;
         plan.maxRate = std::max(plan.maxRate, rate);
     }
     return plan;

@@ -468,11 +468,13 @@ Picture Renderer::render(const Model& model, const RenderOptions& options) {
     parts.describeView(frame);
     if (model.isDense()) {
         stats.triangleCount = model.indexCount() / 3;
+        stats.vertexCount = model.vertexCount();
         stats.drawCount = 1;
     } else {
         parts.makeEdgeRates(frame, stats);
         parts.makePlan(frame);
         stats.triangleCount = frame.plan.triangleCount;
+        stats.vertexCount = frame.plan.vertexCount;
         stats.faceCount = frame.plan.faces.size();
         stats.drawCount = std::uint32_t(frame.plan.batches.size());
         stats.maxRate = frame.plan.maxRate;

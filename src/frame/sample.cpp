@@ -41,10 +41,10 @@ void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& sce
 }
 
 std::vector<SampleResult> sampleSurface(Device& device, const Model& model, std::span<const SampleQuery> queries,
-                                        NormalKind normal, bool isGenericBasis) {
-    for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], i);
-    const ShaderConstants constants{.isGenericBasis = isGenericBasis, .hasTexCoords = model.hasTexCoords(),
-                                    .hasHeight = model.hasHeight(), .normal = normal, .wantsTexCoords = true};
+                                        const SampleOptions& options) {
+    for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], options.firstRow + i);
+    const ShaderConstants constants{.isGenericBasis = options.isGenericBasis, .hasTexCoords = model.hasTexCoords(),
+                                    .hasHeight = model.hasHeight(), .normal = options.normal, .wantsTexCoords = true};
     const Pipeline pipeline = makeCompute(
         device, {.name = "sample", .stage = {VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("sample.comp", model.isTriangles())},
                  .constants = constants.values(), .layout = passLayout()});

@@ -34,6 +34,11 @@ struct FarTables {
     int isolation = 0; ///< levels used: at least 1 where there are n-gons
 };
 
+/// Cage, refined and local points.
+inline std::size_t pointCount(const FarTables& tables) {
+    return std::size_t(tables.refiner->GetNumVerticesTotal()) + tables.patches->GetNumLocalPoints();
+}
+
 /// The cage's topology, not refined. Throws Failure::input when the scheme or OpenSubdiv cannot take it.
 std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme scheme);
 
@@ -45,6 +50,26 @@ std::vector<Point> refineAll(const FarTables& tables, std::span<const vec3> cage
 
 /// Face-varying values, refined and local, as the patch table indexes them; empty without texture coordinates.
 std::vector<TexPoint> refineAllTex(const FarTables& tables, const std::vector<vec2>& texCoords);
+
+/// Blends refined points from the cage's, level by level, then local points from all of these, as the patch table
+/// indexes them. `from(first)` is what holds the points from index `first` on: a pointer, or something that indexes
+/// alike.
+template <typename From>
+void blendPoints(const FarTables& tables, const From& from) {
+    const Far::PrimvarRefinerReal<double> blender(*tables.refiner);
+    int first = 0;
+    for (int level = 1; level < tables.refiner->GetNumLevels(); ++level) {
+        const auto coarse = from(first);
+        first += tables.refiner->GetLevel(level - 1).GetNumVertices();
+        auto fine = from(first);
+        blender.Interpolate(level, coarse, fine);
+    }
+    const auto* local = tables.patches->GetLocalPointStencilTable<double>();
+    if (!local || local->GetNumStencils() == 0) return;
+    const auto refined = from(0);
+    auto locals = from(tables.refiner->GetNumVerticesTotal());
+    local->UpdateValues(refined, locals);
+}
 
 /// Levels below its ptex face: a corner quad of an n-gon starts at depth 1.
 inline int depthInFace(const Far::PatchParam& param) { return param.GetDepth() - (param.NonQuadRoot() ? 1 : 0); }

@@ -134,19 +134,9 @@ FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options) {
 }
 
 std::vector<Point> refineAll(const FarTables& tables, std::span<const vec3> cagePositions) {
-    const int refinedCount = tables.refiner->GetNumVerticesTotal();
-    std::vector<Point> points(std::size_t(refinedCount) + tables.patches->GetNumLocalPoints());
+    std::vector<Point> points(pointCount(tables));
     for (std::size_t i = 0; i < cagePositions.size(); ++i) points[i].value = dvec3(cagePositions[i]);
-
-    const Far::PrimvarRefinerReal<double> refiner(*tables.refiner);
-    Point* coarse = points.data();
-    for (int level = 1; level < tables.refiner->GetNumLevels(); ++level) {
-        Point* fine = coarse + tables.refiner->GetLevel(level - 1).GetNumVertices();
-        refiner.Interpolate(level, coarse, fine);
-        coarse = fine;
-    }
-    if (const auto* local = tables.patches->GetLocalPointStencilTable<double>())
-        local->UpdateValues(points.data(), points.data() + refinedCount);
+    blendPoints(tables, [&](int first) { return points.data() + first; });
     return points;
 }
 
@@ -163,8 +153,8 @@ std::vector<TexPoint> refineAllTex(const FarTables& tables, const std::vector<ve
         refiner.InterpolateFaceVarying(level, coarse, fine);
         coarse = fine;
     }
-    if (const auto* local = tables.patches->GetLocalPointFaceVaryingStencilTable<double>())
-        local->UpdateValues(points.data(), points.data() + refinedCount);
+    const auto* local = tables.patches->GetLocalPointFaceVaryingStencilTable<double>();
+    if (local && local->GetNumStencils() > 0) local->UpdateValues(points.data(), points.data() + refinedCount);
     return points;
 }
 

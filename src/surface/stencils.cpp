@@ -1,22 +1,95 @@
 // Stencils of refined and local points, cut down to the points that some patch uses.
-#include <opensubdiv/far/stencilTableFactory.h>
+#include <limits>
 
 #include "surface/far.h"
 
 namespace relief {
 namespace {
 
-using StencilTable = Far::StencilTableReal<double>;
-using StencilFactory = Far::StencilTableFactoryReal<double>;
+/// Each point's weights over the cage's points. Blending rows as OpenSubdiv blends points takes half the memory of its
+/// own stencil tables, which are copied once for the local points.
+class RowTable {
+public:
+    RowTable(std::size_t cagePointCount, std::size_t pointCount) : rows_(pointCount), sums_(cagePointCount) {
+        for (std::size_t i = 0; i < cagePointCount; ++i) {
+            rows_[i] = {entries_.size(), 1};
+            entries_.push_back({std::uint32_t(i), 1});
+        }
+    }
 
-std::unique_ptr<const StencilTable> makeStencils(const FarTables& tables) {
-    StencilFactory::Options options;
-    options.generateOffsets = true;
-    std::unique_ptr<const StencilTable> refined(StencilFactory::Create(*tables.refiner, options));
-    const auto* local = tables.patches->GetLocalPointStencilTable<double>();
-    if (local && local->GetNumStencils() > 0)
-        refined.reset(StencilFactory::AppendLocalPointStencilTable(*tables.refiner, refined.get(), local));
-    return refined;
+    struct Entry {
+        std::uint32_t index;
+        double weight;
+    };
+
+    /// One row as a value that OpenSubdiv can blend.
+    struct Row {
+        RowTable* table;
+        std::size_t index;
+
+        void Clear() { table->open(index); }                                           // NOLINT(*-identifier-naming)
+        void AddWithWeight(const Row& other, double w) { table->add(other.index, w); } // NOLINT(*-identifier-naming)
+    };
+
+    /// The rows from `first` on.
+    struct Rows {
+        RowTable* table;
+        std::size_t first;
+        Row operator[](int i) const { return {table, first + i}; }
+    };
+
+    [[nodiscard]] std::span<const Entry> row(std::size_t index) const {
+        return std::span(entries_).subspan(rows_[index].first, rows_[index].count);
+    }
+
+    /// Moves the open row's sums into the table.
+    void close() {
+        if (open_ == kNone) return;
+        rows_[open_] = {entries_.size(), used_.size()};
+        for (const std::uint32_t i : used_) {
+            entries_.push_back({i, sums_[i].weight});
+            sums_[i] = {};
+        }
+        used_.clear();
+        open_ = kNone;
+    }
+
+private:
+    static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    struct Range {
+        std::size_t first = 0, count = 0;
+    };
+    struct Sum {
+        double weight = 0;
+        bool isUsed = false;
+    };
+
+    void open(std::size_t index) {
+        close();
+        open_ = index;
+    }
+
+    void add(std::size_t other, double w) {
+        for (const Entry& entry : row(other)) {
+            Sum& sum = sums_[entry.index];
+            if (!sum.isUsed) used_.push_back(entry.index);
+            sum.isUsed = true;
+            sum.weight += w * entry.weight;
+        }
+    }
+
+    std::vector<Range> rows_;
+    std::vector<Entry> entries_;
+    std::vector<Sum> sums_;           ///< of the open row, one a cage point
+    std::vector<std::uint32_t> used_; ///< cage points that the open row has
+    std::size_t open_ = kNone;
+};
+
+RowTable makeRows(const FarTables& tables) {
+    RowTable rows(tables.refiner->GetLevel(0).GetNumVertices(), pointCount(tables));
+    blendPoints(tables, [&](int first) { return RowTable::Rows{&rows, std::size_t(first)}; });
+    rows.close();
+    return rows;
 }
 
 /// Renumbers `indices` at or past `first` in order of their first use; returns the old index of each new one.
@@ -37,18 +110,17 @@ std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uin
 } // namespace
 
 void fillStencils(Surface& surface, const FarTables& tables) {
-    const auto table = makeStencils(tables);
+    const RowTable rows = makeRows(tables);
     surface.controlPointCount = tables.refiner->GetLevel(0).GetNumVertices();
-    const auto used = compact(surface.patchPoints, surface.controlPointCount, table->GetNumStencils());
+    const auto used = compact(surface.patchPoints, surface.controlPointCount, pointCount(tables));
 
     Stencils& stencils = surface.stencils;
     stencils.offsets.reserve(used.size() + 1);
     stencils.offsets.push_back(0);
     for (const std::uint32_t point : used) {
-        const auto row = table->GetStencil(int(point - surface.controlPointCount));
-        for (int k = 0; k < row.GetSize(); ++k) {
-            stencils.indices.push_back(row.GetVertexIndices()[k]);
-            stencils.weights.push_back(float(row.GetWeights()[k]));
+        for (const auto& entry : rows.row(point)) {
+            stencils.indices.push_back(entry.index);
+            stencils.weights.push_back(float(entry.weight));
         }
         stencils.offsets.push_back(std::uint32_t(stencils.indices.size()));
     }
