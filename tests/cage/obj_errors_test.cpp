@@ -93,6 +93,11 @@ TEST(ObjLoader, countsLinesAsEditorsDo) {
 
 TEST(ObjLoader, refusesZeroBytes) { expectRefused(kSquare + std::string("v 0\0 0 0\n", 9), 5, {"zero byte", "UTF-8"}); }
 
+TEST(ObjLoader, messagesStayShortAndPrintable) {
+    expectRefused("v 0 0 " + std::string(1000, 'x') + "\n", 1, {"'" + std::string(40, 'x') + "...'"});
+    expectRefused("v 0 0 \x1b[31m\x07\n", 1, {"'?[31m?'"});
+}
+
 TEST(ObjLoader, refusesFilesWithoutFaces) {
     for (const std::string text : {"", "\n", "# nothing\n", "v 0 0 0\n", "\xef\xbb\xbf"})
         expectFailure(Failure::input, {"test.obj", "no faces"}, [&] { parseObj(text, "test.obj"); });

@@ -1,4 +1,7 @@
 // What OBJ files may hold, and what comes of it.
+#include <cmath>
+#include <limits>
+
 #include "meshes.h"
 #include "support.h"
 
@@ -113,6 +116,7 @@ TEST(ObjLoader, joinsContinuedLines) {
 
 TEST(ObjLoader, aCommentDoesNotContinue) {
     EXPECT_EQ(parse("# made in C:\\\n" + kSquare + "f 1 2 3 4\n").positions.size(), 4u);
+    EXPECT_EQ(parse("v 0 0 0 # C:\\\nv 1 0 0\nv 1 1 0\nf 1 2 3\n").positions.size(), 3u);
 }
 
 TEST(ObjLoader, acceptsAllLineEnds) {
@@ -166,16 +170,22 @@ TEST(ObjLoader, objectsWithoutFacesAreNoParts) {
 TEST(ObjLoader, readsAllTags) {
     const Cage cage = parse(kSquare + "f 1 2 3 4\nf 4 3 2 1\n"
                                       "t crease 2/1/0 0 1 2.5\nt crease 2/1/0 3 2 10\nt corner 1/1/0 3 4\n"
-                                      "t corner 2/1/0 0 1 0.5\nt hole 1/0/0 1\nt interpolateboundary 1/0/0 1\n"
+                                      "t hole 1/0/0 1\nt interpolateboundary 1/0/0 1\n"
                                       "t facevaryinginterpolateboundary 1/0/0 5\nt creasemethod 0/0/1 chaikin\n");
     EXPECT_EQ(cage.creaseEdges, (Indices{0, 1, 3, 2}));
     EXPECT_EQ(cage.creaseSharpness, (std::vector<float>{2.5f, 10}));
-    EXPECT_EQ(cage.sharpVertices, (Indices{3, 0, 1}));
-    EXPECT_EQ(cage.vertexSharpness, (std::vector<float>{4, 0.5f, 0.5f}));
+    EXPECT_EQ(cage.sharpVertices, (Indices{3}));
+    EXPECT_EQ(cage.vertexSharpness, (std::vector<float>{4}));
     EXPECT_EQ(cage.holes, Indices{1});
     EXPECT_EQ(cage.boundaryRule, BoundaryRule::edgeAndCorner);
     EXPECT_EQ(cage.texBoundaryRule, TexBoundaryRule::all);
     EXPECT_EQ(cage.creaseMethod, CreaseMethod::chaikin);
+}
+
+TEST(ObjLoader, cornersShareOneSharpnessOrHaveOneEach) {
+    const Cage cage = parse(kSquare + "f 1 2 3 4\nt corner 2/1/0 0 1 0.5\nt corner 2/2/0 2 3 1 2\n");
+    EXPECT_EQ(cage.sharpVertices, (Indices{0, 1, 2, 3}));
+    EXPECT_EQ(cage.vertexSharpness, (std::vector<float>{0.5f, 0.5f, 1, 2}));
 }
 
 TEST(ObjLoader, withoutTagsTheRulesAreOpenSubdivsDefaults) {
@@ -267,6 +277,16 @@ TEST(ObjWriter, normalsAndAllTagsComeBack) {
     expectSame(readCage(folder / "a.obj"), cage);
 
     cage.texCoords.clear(), cage.texCorners.clear();
+    writeObj(folder / "a.obj", cage);
+    expectSame(readCage(folder / "a.obj"), cage);
+}
+
+TEST(ObjWriter, extremeNumbersComeBack) {
+    const TemporaryFolder folder;
+    Cage cage = cube();
+    constexpr float kLargest = std::numeric_limits<float>::max(), kSmallest = std::numeric_limits<float>::denorm_min();
+    cage.positions[0] = {kLargest, -kLargest, kSmallest};
+    cage.positions[1] = {1.0f / 3, std::nextafter(1.0f, 2.0f), -0.0f};
     writeObj(folder / "a.obj", cage);
     expectSame(readCage(folder / "a.obj"), cage);
 }
