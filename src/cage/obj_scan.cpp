@@ -18,28 +18,32 @@ namespace {
 using Words = std::vector<std::string_view>;
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-constexpr std::string_view kSpaces = " \t\v\f";
 constexpr std::size_t kMaxCorners = std::numeric_limits<int>::max();
+
+bool isSpace(char letter) { return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f'; }
 
 /// Takes the next line off `text`; lines end with LF, CR LF or CR.
 std::string_view takeLine(std::string_view& text) {
-    const std::size_t end = std::min(text.find_first_of("\n\r"), text.size());
-    const std::string_view line = text.substr(0, end);
-    const std::size_t eol = text.substr(end).starts_with("\r\n") ? 2 : 1;
-    text.remove_prefix(std::min(end + eol, text.size()));
+    const auto isEnd = [](char letter) { return letter == '\n' || letter == '\r'; };
+    const auto length = std::size_t(std::find_if(text.begin(), text.end(), isEnd) - text.begin());
+    const std::string_view line = text.substr(0, length);
+    text.remove_prefix(length);
+    text.remove_prefix(std::min<std::size_t>(text.starts_with("\r\n") ? 2 : 1, text.size()));
     return line;
 }
 
 std::string_view trimmed(std::string_view text) {
-    const std::size_t first = text.find_first_not_of(kSpaces);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+    while (!text.empty() && isSpace(text.front())) text.remove_prefix(1);
+    while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
+    return text;
 }
 
 /// A backslash at the end joins the next line, but not when it ends a comment.
 bool isContinued(std::string_view line) { return line.ends_with('\\') && line.find('#') == std::string_view::npos; }
 
-std::string_view firstWord(std::string_view text) { return text.substr(0, text.find_first_of(kSpaces)); }
+std::string_view firstWord(std::string_view text) {
+    return text.substr(0, std::size_t(std::find_if(text.begin(), text.end(), isSpace) - text.begin()));
+}
 
 template <typename Number>
 std::optional<Number> parseNumber(std::string_view word) {
