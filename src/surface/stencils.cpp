@@ -45,11 +45,12 @@ public:
     /// Moves the open row's sums into the table.
     void close() {
         if (open_ == kNone) return;
-        rows_[open_] = {entries_.size(), used_.size()};
+        const std::size_t first = entries_.size();
         for (const std::uint32_t i : used_) {
-            entries_.push_back({i, sums_[i].weight});
+            if (sums_[i].weight != 0) entries_.push_back({i, sums_[i].weight});
             sums_[i] = {};
         }
+        rows_[open_] = {first, entries_.size() - first};
         used_.clear();
         open_ = kNone;
     }
@@ -70,6 +71,7 @@ private:
     }
 
     void add(std::size_t other, double w) {
+        if (w == 0) return;
         for (const Entry& entry : row(other)) {
             Sum& sum = sums_[entry.index];
             if (!sum.isUsed) used_.push_back(entry.index);
