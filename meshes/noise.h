@@ -15,10 +15,10 @@ inline std::uint32_t scramble(std::uint32_t x) {
     return (x >> 22u) ^ x;
 }
 
-inline std::uint32_t scramble(int x, int y, int z, std::uint32_t seed) {
-    return scramble(std::uint32_t(x) * 0x8da6b343u + std::uint32_t(y) * 0xd8163841u + std::uint32_t(z) * 0xcb1ab31fu +
-                    scramble(seed));
-}
+/// What a lattice point's coordinates add to the number that is scrambled.
+inline std::uint32_t latticeX(int x) { return std::uint32_t(x) * 0x8da6b343u; }
+inline std::uint32_t latticeY(int y) { return std::uint32_t(y) * 0xd8163841u; }
+inline std::uint32_t latticeZ(int z) { return std::uint32_t(z) * 0xcb1ab31fu; }
 
 /// 0 <= unit < 1.
 inline double unit(std::uint32_t bits) { return bits * (1.0 / 4294967296.0); }
@@ -56,13 +56,18 @@ inline double noise(const dvec3& p, std::uint32_t seed, int period = 0) {
     double fx = p.x - x, fy = p.y - y, fz = p.z - z;
     auto fade = [](double t) { return t * t * t * (t * (t * 6 - 15) + 10); };
     auto wrap = [&](int i) { return period ? (i % period + period) % period : i; };
-    auto row = [&](int j, int k) {
-        double left = ramp(scramble(wrap(x), wrap(y + j), z + k, seed), fx, fy - j, fz - k);
-        double right = ramp(scramble(wrap(x + 1), wrap(y + j), z + k, seed), fx - 1, fy - j, fz - k);
-        return left + fade(fx) * (right - left);
-    };
-    double v = fade(fy), near = glm::mix(row(0, 0), row(1, 0), v), far = glm::mix(row(0, 1), row(1, 1), v);
-    return glm::mix(near, far, fade(fz));
+    std::uint32_t xs[2] = {latticeX(wrap(x)), latticeX(wrap(x + 1))},
+                  ys[2] = {latticeY(wrap(y)), latticeY(wrap(y + 1))};
+    std::uint32_t zs[2] = {latticeZ(z) + scramble(seed), latticeZ(z + 1) + scramble(seed)};
+    double value[2][2], u = fade(fx), v = fade(fy), w = fade(fz);
+    for (int k = 0; k < 2; ++k)
+        for (int j = 0; j < 2; ++j) {
+            std::uint32_t row = ys[j] + zs[k];
+            double left = ramp(scramble(xs[0] + row), fx, fy - j, fz - k);
+            value[k][j] = left + u * (ramp(scramble(xs[1] + row), fx - 1, fy - j, fz - k) - left);
+        }
+    double near = value[0][0] + v * (value[0][1] - value[0][0]), far = value[1][0] + v * (value[1][1] - value[1][0]);
+    return near + w * (far - near);
 }
 
 /// Octaves of noise, each of half the size and height of the one before; about -1..1.
@@ -94,7 +99,7 @@ inline Cells cells(const dvec3& p, std::uint32_t seed) {
     for (int k = z - 1; k <= z + 1; ++k)
         for (int j = y - 1; j <= y + 1; ++j)
             for (int i = x - 1; i <= x + 1; ++i) {
-                std::uint32_t bits = scramble(i, j, k, seed);
+                std::uint32_t bits = scramble(latticeX(i) + latticeY(j) + latticeZ(k) + scramble(seed));
                 dvec3 point = dvec3(i, j, k) + dvec3(bits & 1023u, (bits >> 10) & 1023u, (bits >> 20) & 1023u) / 1024.0;
                 double d = glm::dot(p - point, p - point);
                 if (d < found.nearest)

@@ -37,11 +37,11 @@ inline double armAzimuth(int k) { return 22.5 + 45 * k; }
 
 inline const std::array<Arm, kArmCount>& octopusArms() {
     static const std::array<Arm, kArmCount> arms{{
-        // Front right: reaches forward, then sweeps aside and rolls its suckers into view.
+        // Front right: flows forward, then rears and shows its suckers.
         {3.6,
          0.29,
-         {{0, 0, -26, 0}, {0.2, -6, -8, 0}, {0.45, 40, 0, 10}, {0.7, 75, 4, 30}, {1, 60, 8, 60}},
-         {0.5, -500, 0}},
+         {{0, 0, -26, 0}, {0.2, -4, -10, 0}, {0.45, 22, 2, 0}, {0.65, 34, 30, 0}, {1, 30, 60, 0}},
+         {0.52, -60, 330}},
         // Right: long and low, its tip curls up over itself.
         {3.8,
          0.29,

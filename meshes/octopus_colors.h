@@ -22,7 +22,7 @@ inline dvec3 upperColor(const SkinPoint& skin, double clouds) {
     const dvec3 kRed(0.74, 0.25, 0.12), kOrange(0.90, 0.47, 0.20);
     dvec3 color = glm::mix(kRed, kRust, smoothstep(0.05, 0.45, clouds));
     color = glm::mix(color, kOrange, 0.85 * smoothstep(0.05, -0.35, clouds));
-    color = glm::mix(color, kRust * 0.8, 0.45 * skin.groove);
+    color = glm::mix(color, kRust * 0.8, 0.45 * skin.groove * (0.3 + 0.7 * skin.calm));
     color = glm::mix(color, kCream, 0.55 * skin.wartTip);
     return glm::mix(color, kRust, 0.35 * smoothstep(0.30, 0.42, noise(skin.p * 34.0, 87)));
 }
@@ -43,6 +43,7 @@ inline dvec3 skinColor(const SkinPoint& skin) {
 
 inline dvec3 octopusColor(const SkinPoint& skin, const Eye& eye) {
     dvec3 color = skinColor(skin);
+    color = glm::mix(color, dvec3(0.16, 0.04, 0.04), 1 - smoothstep(0.070, 0.092, skin.funnel));
     if (skin.eyeAxis > 0.4) return color;
     color = glm::mix(color, dvec3(0.30, 0.07, 0.05), 0.7 * (1 - smoothstep(0.18, 0.30, skin.eyeAxis)));
     return glm::mix(eyeColor(skin.p, eye), color, smoothstep(0.160, 0.172, skin.eyeAxis));

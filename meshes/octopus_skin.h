@@ -18,6 +18,7 @@ struct SkinPoint {
     int eye = 0;           ///< the nearer one
     double eyeAxis = 9;    ///< distance from its axis
     double calm = 1;       ///< 0 on eyes, low on the siphon: rough skin keeps away from them
+    double funnel = 9;     ///< distance from the siphon's axis
     double groove = 0;     ///< 1 between the plates of the skin, 0 on them
     double dome = 0;       ///< the plates' own roundness, 0..1
     double wart = 0;       ///< height of a papilla, cage units
@@ -93,8 +94,8 @@ inline SkinPoint OctopusSkin::placeOf(const SurfacePoint& point) const {
         double height = glm::dot(d, eyes_[i].axis), away = glm::length(d - height * eyes_[i].axis);
         if (std::abs(height) < 0.6 && away < skin.eyeAxis) skin.eyeAxis = away, skin.eye = i;
     }
-    skin.calm =
-        smoothstep(0.19, 0.27, skin.eyeAxis) * glm::mix(0.15, 1.0, smoothstep(0.14, 0.30, siphonDistance(point.p)));
+    skin.funnel = siphonDistance(point.p);
+    skin.calm = smoothstep(0.19, 0.27, skin.eyeAxis) * glm::mix(0.15, 1.0, smoothstep(0.14, 0.30, skin.funnel));
     return skin;
 }
 
@@ -166,7 +167,7 @@ inline SkinPoint OctopusSkin::at(const SurfacePoint& point) const {
 
 /// A cup with a swollen rim; x is the distance from its middle over its radius.
 inline double suckerProfile(double x) {
-    double rim = (x - 0.72) / 0.21, pedestal = 0.24 * (1 - smoothstep(0.80, 1.15, x));
+    double rim = (x - 0.72) / 0.23, pedestal = 0.24 * (1 - smoothstep(0.78, 1.22, x));
     return pedestal + 0.42 * std::exp(-rim * rim) - 0.34 * (1 - smoothstep(0.20, 0.62, x));
 }
 

@@ -28,7 +28,7 @@ public:
     /// Calls `use(stamp, distance / radius)` for every stamp within reach of p.
     template <typename Use>
     void forEachNear(const dvec3& p, Use&& use) const {
-        auto found = cells_.find(key(glm::floor(p / cell_)));
+        auto found = cells_.find(key(cellOf(p)));
         if (found == cells_.end()) return;
         for (std::uint32_t i : found->second) {
             double x = glm::distance(p, stamps_[i].center) / stamps_[i].radius;
@@ -38,8 +38,10 @@ public:
     [[nodiscard]] std::size_t size() const { return stamps_.size(); }
 
 private:
-    static std::uint64_t key(const dvec3& cell) {
-        auto part = [](double x) { return std::uint64_t(std::int64_t(x) + (1 << 20)); };
+    using ivec3 = glm::ivec3;
+    [[nodiscard]] ivec3 cellOf(const dvec3& p) const { return glm::floor(p / cell_); }
+    static std::uint64_t key(const ivec3& cell) {
+        auto part = [](int x) { return std::uint64_t(x + (1 << 20)); };
         return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
     }
     double cell_, reach_;
@@ -48,11 +50,10 @@ private:
 };
 
 inline void Stamps::add(const Stamp& stamp) {
-    dvec3 low = glm::floor((stamp.center - stamp.radius * reach_) / cell_);
-    dvec3 high = glm::floor((stamp.center + stamp.radius * reach_) / cell_);
-    for (double z = low.z; z <= high.z; ++z)
-        for (double y = low.y; y <= high.y; ++y)
-            for (double x = low.x; x <= high.x; ++x) cells_[key({x, y, z})].push_back(std::uint32_t(stamps_.size()));
+    ivec3 low = cellOf(stamp.center - stamp.radius * reach_), high = cellOf(stamp.center + stamp.radius * reach_);
+    for (int z = low.z; z <= high.z; ++z)
+        for (int y = low.y; y <= high.y; ++y)
+            for (int x = low.x; x <= high.x; ++x) cells_[key({x, y, z})].push_back(std::uint32_t(stamps_.size()));
     stamps_.push_back(stamp);
 }
 

@@ -100,7 +100,8 @@ inline Paint StrawberrySkin::at(const SurfacePoint& point) const {
     int local = point.face - int(part->firstFace), column = local % 6;
     double turn = column + point.uv.x; // 0 and 6 above the midrib, 3 below it
     double across = std::min({turn, std::abs(turn - 3), 6 - turn}) / 1.5;
-    double along = local >= 6 * kSepalRows ? kSepalRows : local / 6 + point.uv.y;
+    int row = local / 6;
+    double along = row >= kSepalRows ? kSepalRows : row + point.uv.y;
     return leaf(point.p, along, across, column < 1 || column > 4 || std::abs(turn - 3) > 1.5);
 }
 
