@@ -41,7 +41,7 @@ private:
     using ivec3 = glm::ivec3;
     [[nodiscard]] ivec3 cellOf(const dvec3& p) const { return glm::floor(p / cell_); }
     static std::uint64_t key(const ivec3& cell) {
-        auto part = [](int x) { return std::uint64_t(x + (1 << 20)); };
+        auto part = [](int x) { return std::uint64_t(x) + (1u << 20); };
         return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
     }
     double cell_, reach_;
