@@ -74,10 +74,10 @@ void blendPoints(const FarTables& tables, const From& from) {
 /// Levels below its ptex face: a corner quad of an n-gon starts at depth 1.
 inline int depthInFace(const Far::PatchParam& param) { return param.GetDepth() - (param.NonQuadRoot() ? 1 : 0); }
 
-// The steps of buildSurface, each fills its own part of the surface.
+// The steps of buildSurface, each fills its own part of the surface; the last one uses the tables up.
 void fillPatches(Surface& surface, const FarTables& tables);
-void fillStencils(Surface& surface, const FarTables& tables);
-void fillTexPoints(Surface& surface, const FarTables& tables, const std::vector<vec2>& texCoords);
 void fillOwners(Surface& surface, const FarTables& tables, const Cage& cage);
+void fillTexPoints(Surface& surface, const FarTables& tables, const std::vector<vec2>& texCoords);
+void fillStencils(Surface& surface, FarTables tables);
 
 } // namespace relief

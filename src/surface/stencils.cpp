@@ -11,6 +11,7 @@ namespace {
 class RowTable {
 public:
     RowTable(std::size_t cagePointCount, std::size_t pointCount) : rows_(pointCount), sums_(cagePointCount) {
+        entries_.reserve(kUsualWeights * pointCount);
         for (std::size_t i = 0; i < cagePointCount; ++i) {
             rows_[i] = {entries_.size(), 1};
             entries_.push_back({std::uint32_t(i), 1});
@@ -56,6 +57,7 @@ public:
     }
 
 private:
+    static constexpr std::size_t kUsualWeights = 16; ///< a row
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     struct Range {
         std::size_t first = 0, count = 0;
@@ -111,12 +113,17 @@ std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uin
 
 } // namespace
 
-void fillStencils(Surface& surface, const FarTables& tables) {
+void fillStencils(Surface& surface, FarTables tables) {
     const RowTable rows = makeRows(tables);
     surface.controlPointCount = tables.refiner->GetLevel(0).GetNumVertices();
     const auto used = compact(surface.patchPoints, surface.controlPointCount, pointCount(tables));
+    tables = {}; // the largest thing in memory, and not needed beside the arrays that grow below
 
+    std::size_t weightCount = 0;
+    for (const std::uint32_t point : used) weightCount += rows.row(point).size();
     Stencils& stencils = surface.stencils;
+    stencils.indices.reserve(weightCount);
+    stencils.weights.reserve(weightCount);
     stencils.offsets.reserve(used.size() + 1);
     stencils.offsets.push_back(0);
     for (const std::uint32_t point : used) {

@@ -33,12 +33,12 @@ Surface buildSurface(const Cage& cage, const SurfaceOptions& options) {
     Surface surface;
     surface.scheme = options.scheme;
     surface.sideCount = options.scheme == Scheme::loop ? 3 : 4;
-    const FarTables tables = makeFarTables(cage, options);
+    FarTables tables = makeFarTables(cage, options);
     fillPatches(surface, tables);
-    fillStencils(surface, tables);
-    fillTexPoints(surface, tables, cage.texCoords);
-    surface.tableSeconds = std::chrono::duration<double>(Clock::now() - start).count();
     fillOwners(surface, tables, cage);
+    fillTexPoints(surface, tables, cage.texCoords);
+    fillStencils(surface, std::move(tables));
+    surface.tableSeconds = std::chrono::duration<double>(Clock::now() - start).count();
     return surface;
 }
 

@@ -45,7 +45,7 @@ struct Surface {
     std::vector<Touch> touches;
 
     bool isClosed = false;   ///< no boundary edges and no holes
-    double tableSeconds = 0; ///< time spent inside OpenSubdiv
+    double tableSeconds = 0; ///< time that building took, most of it inside OpenSubdiv
 
     [[nodiscard]] bool hasTexCoords() const { return !texPoints.empty(); }
     [[nodiscard]] std::uint64_t byteCount() const;

@@ -65,7 +65,8 @@ Known onCylinder(double r, double a, double k, double u) {
 
 // The displaced cylinder is the curve of radius r + h(u): its normal is (r + h) n - h' t.
 TEST(DisplacedNormals, OfACylinderAreThoseOfThePolarCurve) {
-    for (double u = 0; u < 6; u += 0.37) {
+    for (int i = 0; i < 16; ++i) {
+        const double u = 0.37 * i;
         const Known known = onCylinder(2, 0.6, 3, u);
         const dvec3 tangent(-std::sin(u), std::cos(u), 0);
         EXPECT_LE(degreesBetween(known.full(), (2 + known.h) * known.n - known.dh.x * tangent), 1e-6);

@@ -33,7 +33,8 @@ TEST(BuildSurface, RefusesACageWithoutFaces) { EXPECT_EQ(failureOf(Cage{}, {}), 
 TEST(BuildSurface, TakesDegenerateFacesWithoutAWord) {
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
-    const Cage repeated = makeCage({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 1, 2}, {0, 2, 3, 0, 2}});
+    Cage repeated = makeCage({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{0, 1, 1, 2}, {0, 2, 3, 0, 2}});
+    test::addCrease(repeated, 1, 3, 2); // no edge: OpenSubdiv has a warning for it
     const Surface surface = buildSurface(repeated, {Scheme::catmark, 3});
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");

@@ -17,8 +17,10 @@ using SchemeOptions = OpenSubdiv::Sdc::Options;
 template <typename V>
 struct Sum {
     V value{0};
+    // NOLINTBEGIN(readability-identifier-naming): the names are OpenSubdiv's
     void Clear() { value = V(0); }
     void AddWithWeight(const Sum& other, double w) { value += w * other.value; }
+    // NOLINTEND(readability-identifier-naming)
 };
 
 std::vector<int> asInts(const std::vector<std::uint32_t>& values) { return {values.begin(), values.end()}; }
@@ -174,8 +176,10 @@ int Oracle::faceAround(const Grid& grid, int levelIndex, int cageFace, int i, in
 
 void Oracle::interpolate(const Cage& cage) {
     const Far::PrimvarRefinerReal<double> interpolator(*refiner_);
-    std::vector<Sum<dvec3>> points(cage.positions.begin(), cage.positions.end());
-    std::vector<Sum<dvec2>> values(cage.texCoords.begin(), cage.texCoords.end());
+    std::vector<Sum<dvec3>> points(cage.positions.size());
+    std::vector<Sum<dvec2>> values(cage.texCoords.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i].value = dvec3(cage.positions[i]);
+    for (std::size_t i = 0; i < values.size(); ++i) values[i].value = dvec2(cage.texCoords[i]);
     for (int level = 1; level < refiner_->GetNumLevels(); ++level) {
         std::vector<Sum<dvec3>> finePoints(refiner_->GetLevel(level).GetNumVertices());
         interpolator.Interpolate(level, points, finePoints);
