@@ -6,8 +6,8 @@
 namespace relief {
 namespace {
 
-/// Each point's weights over the cage's points. Blending rows as OpenSubdiv blends points takes half the memory of its
-/// own stencil tables, which are copied once for the local points.
+/// Each point's weights over the cage's points. Blending rows as OpenSubdiv blends points keeps one copy of them; its
+/// own stencil tables are copied to append the local points.
 class RowTable {
 public:
     RowTable(std::size_t cagePointCount, std::size_t pointCount) : rows_(pointCount), sums_(cagePointCount) {
