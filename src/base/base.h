@@ -110,6 +110,10 @@ void writeWhole(const std::string& path, const std::function<void(const std::str
 /// Writes `bytes` as the file `path`, whole or not at all. Throws Failure::file when writing fails.
 void writeFile(const std::string& path, std::string_view bytes);
 
+/// From now on an interrupt (SIGINT, SIGTERM, SIGHUP) removes the temporary files of writeWhole and ends the program
+/// with 128 + the signal's number: 130 for Ctrl-C. Call it first in main: threads that run already are not covered.
+void endCleanlyOnInterrupt();
+
 /// The whole file as bytes. Throws Failure::file, or Failure::input when it is longer than `limit` bytes.
 std::string readFile(const std::string& path, std::uint64_t limit = 1ull << 32);
 

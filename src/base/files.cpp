@@ -2,11 +2,15 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <mutex>
+#include <set>
 #include <system_error>
+#include <thread>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -47,18 +51,44 @@ fs::path makeTemporary(const fs::path& target) {
     }
 }
 
-/// Removes the file unless it has been renamed away.
+/// The temporary files of this process, for an interrupt to remove.
+struct Temporaries {
+    std::mutex mutex;
+    std::set<fs::path> paths;
+};
+
+/// Never destroyed: an interrupt may come while the program's other objects end.
+Temporaries& temporaries() {
+    static auto& all = *new Temporaries;
+    return all;
+}
+
+/// A new temporary file; removed at the end of the scope unless it has been renamed away.
 struct TemporaryFile {
     fs::path path;
 
-    explicit TemporaryFile(fs::path path) : path(std::move(path)) {}
+    explicit TemporaryFile(const fs::path& target) {
+        const std::lock_guard lock(temporaries().mutex); // an interrupt finds no file that is not listed
+        path = makeTemporary(target);
+        temporaries().paths.insert(path);
+    }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile() {
+        const std::lock_guard lock(temporaries().mutex);
+        temporaries().paths.erase(path);
         std::error_code ignored;
         fs::remove(path, ignored);
     }
 };
+
+[[noreturn]] void exitInterrupted(int signal) {
+    const std::lock_guard lock(temporaries().mutex); // kept to the end: nobody makes another one
+    std::error_code ignored;
+    for (const fs::path& path : temporaries().paths) fs::remove(path, ignored);
+    fmt::print(stderr, "relief: interrupted\n");
+    _exit(128 + signal);
+}
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -80,7 +110,7 @@ struct CloseFile {
 
 void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write) {
     const fs::path target = resolveTarget(path);
-    const TemporaryFile temporary(makeTemporary(target));
+    const TemporaryFile temporary(target);
     write(temporary.path.string());
     std::error_code error;
     fs::rename(temporary.path, target, error);
@@ -94,6 +124,23 @@ void writeFile(const std::string& path, std::string_view bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) failToWrite(path);
         if (std::fclose(file.release()) != 0) failToWrite(path); // a full disk may show only here
     });
+}
+
+void endCleanlyOnInterrupt() {
+    sigset_t watched;
+    sigemptyset(&watched);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction current {};
+        sigaction(signal, nullptr, &current);
+        if (current.sa_handler != SIG_IGN) sigaddset(&watched, signal); // as under nohup and in a script's background
+    }
+    // A thread that waits may lock and allocate, which a signal handler must not.
+    pthread_sigmask(SIG_BLOCK, &watched, nullptr);
+    std::thread([watched] {
+        int signal = 0;
+        sigwait(&watched, &signal);
+        exitInterrupted(signal);
+    }).detach();
 }
 
 std::string readFile(const std::string& path, std::uint64_t limit) {

@@ -1,7 +1,6 @@
 // Pictures out, whole or not at all.
 #include "base/base.h"
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 
@@ -47,12 +46,6 @@ void checkShape(const std::string& path, const Image& image) {
              image.channels, image.texels.size());
 }
 
-/// Integers hold 0..1; NaN becomes 0.
-std::vector<float> clamped(std::vector<float> texels) {
-    for (float& texel : texels) texel = texel > 0 ? std::min(texel, 1.0f) : 0.0f;
-    return texels;
-}
-
 } // namespace
 
 void writeImage(const std::string& path, const Image& image, SampleType sample) {
@@ -61,7 +54,6 @@ void writeImage(const std::string& path, const Image& image, SampleType sample) 
     OIIO::ImageSpec spec(image.width, image.height, image.channels, sampleDesc(sample));
     spec.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours are divided by alpha on the way out
     spec.attribute("tiff:write_exif", 0);        // it would be read back, and memory output cannot be read
-    const std::vector<float> texels = isInteger(sample) ? clamped(image.texels) : image.texels;
 
     // Into memory first: the PNG writer does not notice a full disk, TIFF and EXR miss their last block.
     std::vector<unsigned char> encoded;
@@ -69,7 +61,7 @@ void writeImage(const std::string& path, const Image& image, SampleType sample) 
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output || !output->supports("ioproxy") || !output->set_ioproxy(&memory))
         fail(Failure::internal, "OpenImageIO has no {} writer into memory: {}", format, OIIO::geterror());
-    const bool isWritten = output->open(path, spec) && output->write_image(OIIO::TypeFloat, texels.data());
+    const bool isWritten = output->open(path, spec) && output->write_image(OIIO::TypeFloat, image.texels.data());
     if (!output->close() || !isWritten || output->has_error())
         fail(Failure::file, "{}: cannot be written as {}: {}", path, format, output->geterror());
     writeFile(path, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});

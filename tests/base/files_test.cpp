@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include "support.h"
 
@@ -56,6 +56,14 @@ TEST(WriteWhole, refusesToReplaceDevicesAndFolders) {
     expectFailure(Failure::file, {"/dev/full"}, [] { writeFile("/dev/full", "x"); });
     expectFailure(Failure::file, {"ordinary file"}, [&] { writeFile(folder.path.string(), "x"); });
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST(WriteWhole, passesOverTemporaryNamesThatAreTaken) {
+    const TemporaryFolder folder;
+    for (int i = 0; i < 300; ++i) putFile(folder / fmt::format(".relief-{}-{}.txt", getpid(), i), "other");
+    writeFile(folder / "a.txt", "new");
+    EXPECT_EQ(readFile(folder / "a.txt"), "new");
+    EXPECT_EQ(folder.fileCount(), 301u);
 }
 
 TEST(WriteWhole, refusesAnEmptyName) {

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -51,6 +52,7 @@ std::vector<std::string> writeAllKinds(const TemporaryFolder& folder) {
     writeImage(folder / "rgb16.exr", colour, SampleType::half);
     writeForeign(folder / "rgb.jpg", colour, OIIO::TypeDesc::UINT8);
     writeForeign(folder / "rgb.hdr", colour, OIIO::TypeDesc::FLOAT);
+    writeForeign(folder / "foreign.tif", colour, OIIO::TypeDesc::FLOAT); // its directory comes before its pixels
     std::vector<std::string> paths;
     for (const auto& entry : fs::directory_iterator(folder.path)) paths.push_back(entry.path().string());
     return paths;
@@ -130,9 +132,11 @@ TEST(Image, coloursAreNotMultipliedByAlpha) {
 
 TEST(Image, integersAreClamped) {
     const TemporaryFolder folder;
-    const Image image{.width = 4, .height = 1, .channels = 1, .texels = {-1, 2, 1e30f, NAN}};
-    writeImage(folder / "a.png", image, SampleType::uint16);
-    EXPECT_EQ(readImage(folder / "a.png").texels, (std::vector<float>{0, 1, 1, 0}));
+    const Image image{.width = 9, .height = 1, .channels = 1, .texels = {-1, 2, 1e30f, NAN, -INFINITY, 1, 1, 1, NAN}};
+    for (const SampleType sample : {SampleType::uint8, SampleType::uint16}) {
+        writeImage(folder / "a.png", image, sample);
+        EXPECT_EQ(readImage(folder / "a.png").texels, (std::vector<float>{0, 1, 1, 0, 0, 1, 1, 1, 0}));
+    }
 }
 
 TEST(Image, givesOneChannel) {
@@ -197,6 +201,18 @@ TEST(Image, refusesCutFiles) {
             expectFailure(Failure::input, {path}, [&] { readImage(path); });
         }
     }
+}
+
+TEST(Image, refusesPngWithoutItsEndAndKeepsStderrClean) {
+    const TemporaryFolder folder;
+    writeImage(folder / "a.png", noise(16, 16, 1), SampleType::uint8);
+    const std::string whole = readFile(folder / "a.png");
+    testing::internal::CaptureStderr();
+    for (const std::size_t missing : {1, 12, 13, 100}) {
+        putFile(folder / "a.png", std::string_view(whole).substr(0, whole.size() - missing));
+        expectFailure(Failure::input, {"ends before"}, [&] { readImage(folder / "a.png"); });
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(Image, refusesJpegThatEndsOnlyInItsThumbnail) {
