@@ -66,12 +66,13 @@ int sample(const SampleArgs& args) {
     if (loaded.dense) fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.surface.cage);
     Device device({.name = args.device});
     const Model model(device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    SurfaceSampler sampler(device);
     Progress progress("sampling", queries.size(), args.output.progress);
     std::string text(kHeader);
     for (std::size_t first = 0; first < queries.size(); first += kRowsAtOnce) {
         const auto part = std::span(queries).subspan(first, std::min(kRowsAtOnce, queries.size() - first));
         const std::vector<SampleResult> results =
-            sampleSurface(device, model, part, {.firstRow = first, .normal = normalKind(args.normal)});
+            sampler.sample(model, part, {.firstRow = first, .normal = normalKind(args.normal)});
         for (std::size_t i = 0; i < part.size(); ++i) appendRow(text, part[i], results[i]);
         progress.advance(part.size());
     }

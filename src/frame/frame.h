@@ -228,8 +228,22 @@ struct SampleOptions {
     bool isGenericBasis = false;            ///< OpenSubdiv's own basis for all patches: slower, the check of the others
 };
 
-/// The device's own frames at (face,u,v). Throws Failure::input for a face out of range, a hole, or (u,v) outside it.
-std::vector<SampleResult> sampleSurface(Device& device, const Model& model, std::span<const SampleQuery> queries,
-                                        const SampleOptions& options = {});
+/// The device's own frames at single points. Shaders are compiled once for a kind of model.
+class SurfaceSampler {
+public:
+    explicit SurfaceSampler(Device& device);
+
+    /// Throws Failure::input for a face out of range, a hole, or (u,v) outside its face.
+    std::vector<SampleResult> sample(const Model& model, std::span<const SampleQuery> queries, const SampleOptions& options = {});
+
+private:
+    const Pipeline& pipelineOf(const Model& model, const SampleOptions& options);
+
+    Device& device_;
+    Owned<VkSampler> sampler_;
+    Buffer scene_;
+    TexelBuffer none_;
+    std::map<std::vector<std::uint32_t>, Pipeline> pipelines_;
+};
 
 } // namespace relief

@@ -40,42 +40,60 @@ void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& sce
     barrier(commands);
 }
 
-std::vector<SampleResult> sampleSurface(Device& device, const Model& model, std::span<const SampleQuery> queries,
-                                        const SampleOptions& options) {
-    for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], options.firstRow + i);
+namespace {
+
+/// Everything but the samples of a picture.
+PipelineLayoutDesc sampleLayout() {
+    PipelineLayoutDesc layout = passLayout();
+    layout.bindings.resize(kBindDepths);
+    return layout;
+}
+
+} // namespace
+
+SurfaceSampler::SurfaceSampler(Device& device)
+    : device_(device), sampler_(makeSampler(device, {})), scene_(makeSceneBuffer(device)), none_(uploadWords(device, "nothing", {})) {}
+
+const Pipeline& SurfaceSampler::pipelineOf(const Model& model, const SampleOptions& options) {
     const ShaderConstants constants{.isGenericBasis = options.isGenericBasis, .hasTexCoords = model.hasTexCoords(),
                                     .hasHeight = model.hasHeight(), .normal = options.normal, .wantsTexCoords = true};
-    PipelineLayoutDesc layout = passLayout();
-    layout.bindings.resize(kBindDepths); // no samples of a picture
-    const Pipeline pipeline = makeCompute(
-        device, {.name = "sample", .stage = {VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("sample.comp", model.isTriangles())},
-                 .constants = constants.values(), .layout = layout});
-    const Buffer in = uploadArray(device, "queries", queries);
+    std::vector<std::uint32_t> key = constants.values();
+    key.push_back(model.isTriangles());
+    const auto found = pipelines_.find(key);
+    if (found != pipelines_.end()) return found->second;
+    const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("sample.comp", model.isTriangles())};
+    return pipelines_[key] = makeCompute(device_, {.name = "sample", .stage = stage, .constants = constants.values(), .layout = sampleLayout()});
+}
+
+std::vector<SampleResult> SurfaceSampler::sample(const Model& model, std::span<const SampleQuery> queries,
+                                                 const SampleOptions& options) {
+    for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], options.firstRow + i);
+    const Buffer in = uploadArray(device_, "queries", queries);
     std::vector<SampleResult> results(queries.size());
-    const Buffer out = makeBuffer(device, {.name = "results", .bytes = results.size() * sizeof(SampleResult),
-                                           .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-    const Buffer sceneBuffer = makeSceneBuffer(device);
-    const Owned<VkSampler> sampler = makeSampler(device, {});
+    const Buffer out = makeBuffer(device_, {.name = "results", .bytes = results.size() * sizeof(SampleResult),
+                                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     // What the shader does not read is bound all the same: Mesa 22.3's CPU driver walks every descriptor of a set.
-    const TexelBuffer none = uploadWords(device, "nothing", {});
     Scene scene{};
     Binding bindings[kBindCount];
     model.describe(scene, bindings);
-    bindings[kBindEnvironment].view = bindings[kBindShadow].view = bindings[kBindAlbedo].view;
-    bindings[kBindEdgeRates].texels = bindings[kBindDrawFaces].texels = none.view.get();
-    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
-        bindings[image].sampler = sampler.get();
     scene.sampleQueries = in.address;
     scene.sampleResults = out.address;
-    bindings[kBindScene].uniform = sceneBuffer.handle.get();
-    const BindingSet set = makeBindingSet(device, pipeline, layout, std::span(bindings, layout.bindings.size()));
-    device.run([&](VkCommandBuffer commands) {
-        writeScene(commands, sceneBuffer, scene);
+    bindings[kBindScene].uniform = scene_.handle.get();
+    bindings[kBindEnvironment].view = bindings[kBindShadow].view = bindings[kBindAlbedo].view;
+    bindings[kBindEdgeRates].texels = bindings[kBindDrawFaces].texels = none_.view.get();
+    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
+        bindings[image].sampler = sampler_.get();
+
+    const Pipeline& pipeline = pipelineOf(model, options);
+    const PipelineLayoutDesc layout = sampleLayout();
+    const BindingSet set = makeBindingSet(device_, pipeline, layout, std::span(bindings, layout.bindings.size()));
+    device_.run([&](VkCommandBuffer commands) {
+        writeScene(commands, scene_, scene);
         bind(commands, pipeline, set);
         pushConstants(commands, pipeline, {.passNumber = std::uint32_t(queries.size())});
         vkCmdDispatch(commands, std::uint32_t((queries.size() + 63) / 64), 1, 1);
     });
-    downloadBytes(device, out, std::as_writable_bytes(std::span(results)));
+    downloadBytes(device_, out, std::as_writable_bytes(std::span(results)));
     return results;
 }
 
