@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -15,29 +16,51 @@ struct InfoArgs {
 };
 
 json ofBounds(const Bounds& b) {
-    return {{"lower", {b.lower.x, b.lower.y, b.lower.z}}, {"upper", {b.upper.x, b.upper.y, b.upper.z}}, {"diagonal", b.diagonal()}};
+    return {{"lower", {b.lower.x, b.lower.y, b.lower.z}},
+            {"upper", {b.upper.x, b.upper.y, b.upper.z}},
+            {"diagonal", b.diagonal()}};
 }
 
 json ofCage(const std::string& path, const Warn& warn) {
     const Cage cage = readCage(path, warn);
     const CageSummary s = summarize(cage);
     json parts = json::array();
-    for (const CagePart& part : cage.parts) parts.push_back({{"name", part.name}, {"material", part.material}, {"faces", part.faceCount}});
-    return {{"file", path}, {"kind", "cage"}, {"vertices", s.vertexCount}, {"faces", s.faceCount}, {"edges", s.edgeCount},
-            {"triangles", s.triangleCount}, {"quads", s.quadCount}, {"n-gons", s.otherFaceCount},
-            {"boundary edges", s.boundaryEdgeCount}, {"non-manifold edges", s.nonManifoldEdgeCount},
-            {"extraordinary vertices", s.irregularVertexCount}, {"max valence", s.maxValence},
-            {"unused vertices", s.unusedVertexCount}, {"creased edges", s.creasedEdgeCount},
-            {"sharp vertices", s.sharpVertexCount}, {"holes", s.holeCount}, {"texture coordinates", s.texCoordCount},
-            {"seam edges", s.seamEdgeCount}, {"bytes", cage.byteCount()}, {"bounds", ofBounds(s.bounds)}, {"parts", parts}};
+    for (const CagePart& part : cage.parts)
+        parts.push_back({{"name", part.name}, {"material", part.material}, {"faces", part.faceCount}});
+    return {{"file", path},
+            {"kind", "cage"},
+            {"vertices", s.vertexCount},
+            {"faces", s.faceCount},
+            {"edges", s.edgeCount},
+            {"triangles", s.triangleCount},
+            {"quads", s.quadCount},
+            {"n_gons", s.otherFaceCount},
+            {"boundary_edges", s.boundaryEdgeCount},
+            {"non_manifold_edges", s.nonManifoldEdgeCount},
+            {"extraordinary_vertices", s.irregularVertexCount},
+            {"max_valence", s.maxValence},
+            {"unused_vertices", s.unusedVertexCount},
+            {"creased_edges", s.creasedEdgeCount},
+            {"sharp_vertices", s.sharpVertexCount},
+            {"holes", s.holeCount},
+            {"texture_coordinates", s.texCoordCount},
+            {"seam_edges", s.seamEdgeCount},
+            {"bytes", cage.byteCount()},
+            {"bounds", ofBounds(s.bounds)},
+            {"parts", parts}};
 }
 
 json ofPicture(const std::string& path) {
     const ImageInfo info = readImageInfo(path);
-    json result{{"file", path}, {"kind", "picture"}, {"format", info.format}, {"width", info.width}, {"height", info.height},
-                {"sample", info.sample}, {"channels", info.channelNames},
+    json result{{"file", path},
+                {"kind", "picture"},
+                {"format", info.format},
+                {"width", info.width},
+                {"height", info.height},
+                {"sample", info.sample},
+                {"channels", info.channelNames},
                 {"bytes", std::uint64_t(info.width) * info.height * info.channels * info.sampleBytes},
-                {"default mid", info.isFloat ? 0.0 : 0.5}};
+                {"default_mid", info.isFloat ? 0.0 : 0.5}};
     const Image image = readImage(path);
     json ranges = json::array();
     for (int c = 0; c < image.channels; ++c) {
@@ -55,11 +78,17 @@ json ofPicture(const std::string& path) {
 json ofDevices() {
     json list = json::array();
     for (const DeviceTraits& t : listDevices())
-        list.push_back({{"device", t.name}, {"driver", t.driver}, {"vulkan", t.api}, {"cpu", t.isCpu},
-                        {"tessellation shaders", t.hasTessellation}, {"largest tessellation level", t.maxTessellationLevel},
-                        {"wireframe", t.hasWireframe}, {"largest image side", t.maxImageSide}, {"memory", t.heapBytes},
-                        {"times passes", t.timestampNanoseconds > 0},
-                        {"tessellated vertices a draw", t.tessellatedVerticesPerDraw}});
+        list.push_back({{"device", t.name},
+                        {"driver", t.driver},
+                        {"vulkan", t.api},
+                        {"cpu", t.isCpu},
+                        {"tessellation_shaders", t.hasTessellation},
+                        {"largest_tessellation_level", t.maxTessellationLevel},
+                        {"wireframe", t.hasWireframe},
+                        {"largest_image_side", t.maxImageSide},
+                        {"memory", t.heapBytes},
+                        {"times_passes", t.timestampNanoseconds > 0},
+                        {"tessellated_vertices_a_draw", t.tessellatedVerticesPerDraw}});
     return list;
 }
 
@@ -75,13 +104,16 @@ std::string text(const json& value) {
     return value.is_array() ? "(" + joined + ")" : joined;
 }
 
-/// One `name  value` a line; what is zero or empty is left out.
+/// One `name  value` a line, in the JSON's words; what is zero or empty is left out.
 void print(const json& object) {
     for (const auto& [key, value] : object.items()) {
-        const bool isNothing = (value.is_number() && value.get<double>() == 0 && key != "default mid") || (value.is_array() && value.empty());
+        const bool isNothing = (value.is_number() && value.get<double>() == 0 && key != "default_mid") ||
+                               (value.is_array() && value.empty());
         if (isNothing) continue;
         const bool isSize = key == "bytes" || key == "memory";
-        std::cout << fmt::format("  {:28} {}\n", key, isSize ? humanBytes(value.get<std::uint64_t>()) : text(value));
+        std::string name = key;
+        std::ranges::replace(name, '_', ' ');
+        std::cout << fmt::format("  {:28} {}\n", name, isSize ? humanBytes(value.get<std::uint64_t>()) : text(value));
     }
 }
 

@@ -1,4 +1,6 @@
 // relief: displaced subdivision surfaces on any Vulkan 1.3 device.
+#include <algorithm>
+#include <cctype>
 #include <iostream>
 #include <new>
 
@@ -20,13 +22,16 @@ constexpr Command kCommands[] = {
     {"info", "what a file holds; what the devices can do", app::addInfo},
 };
 
-int fault(Failure failure, const std::string& line) {
+/// One line, whatever stood in the words that it repeats.
+int fault(Failure failure, std::string line) {
+    std::ranges::replace_if(
+        line, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
     std::cerr << "relief: " << line << '\n';
     return int(failure);
 }
 
-/// The word that CLI11 stumbled over, with the nearest option or verb of the command.
-std::string suggestion(const CLI::App& top, int argc, char** argv) {
+/// What helps more than CLI11's own words: the nearest option or verb to an unknown one, or the verbs that there are.
+std::string hintFor(const CLI::App& top, int argc, char** argv) {
     const CLI::App* command = top.get_subcommands().empty() ? &top : top.get_subcommands().front();
     std::vector<std::string> known;
     for (const CLI::Option* option : command->get_options())
@@ -40,7 +45,10 @@ std::string suggestion(const CLI::App& top, int argc, char** argv) {
         const std::string near = nearestWord(word, known);
         if (!near.empty()) return fmt::format("{} is not known here; did you mean {}?", word, near);
     }
-    return "";
+    if (command != &top) return "";
+    std::string verbs;
+    for (const Command& c : kCommands) verbs += fmt::format("{}{}", verbs.empty() ? "" : ", ", c.name);
+    return fmt::format("name what to do first: {} (relief --help explains)", verbs);
 }
 
 int run(int argc, char** argv) {
@@ -59,7 +67,7 @@ int run(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        const std::string hint = suggestion(app, argc, argv);
+        const std::string hint = hintFor(app, argc, argv);
         return fault(Failure::usage, hint.empty() ? error.what() : hint);
     }
     return chosen();
@@ -69,6 +77,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
+        endCleanlyOnInterrupt();
         return run(argc, argv);
     } catch (const Error& error) {
         return fault(error.failure, error.what());

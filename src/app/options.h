@@ -13,12 +13,12 @@ struct Output {
     bool isJson = false, isQuiet = false, isVerbose = false;
     ShowProgress progress = ShowProgress::automatic;
 
-    [[nodiscard]] Warn warn() const;        ///< silent with -q
+    [[nodiscard]] Warn warn() const; ///< silent with -q
 };
 
 struct SurfaceArgs {
     std::string cage;
-    std::string scheme;                     ///< "": catmark, or none for a mesh of triangles
+    std::string scheme; ///< "": catmark, or none for a mesh of triangles
     int isolation = 6;
     std::string height;
     std::optional<double> scale, mid;
@@ -27,7 +27,7 @@ struct SurfaceArgs {
 };
 
 struct PictureArgs {
-    std::string path;                       ///< "": tessellation where the device has it
+    std::string path; ///< "": tessellation where the device has it
     std::optional<int> rate;
     double edgePixels = 2;
     std::string normal = "full", show = "shaded";
@@ -46,12 +46,14 @@ struct PictureArgs {
 
 void addOutput(CLI::App& app, Output& output);
 void addSurface(CLI::App& app, SurfaceArgs& args);
+void addNormal(CLI::App& app, std::string& word);
+void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
 
 /// A cage with everything made of it, in memory.
 struct Loaded {
     Cage cage;
-    std::optional<DenseMesh> dense;         ///< instead of a surface, where no scheme applies
+    std::optional<DenseMesh> dense; ///< instead of a surface, where no scheme applies
     Surface surface;
     std::optional<HeightMap> height;
     SurfaceOptions options;
@@ -60,6 +62,9 @@ struct Loaded {
     [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
 };
 Loaded load(const SurfaceArgs& args, const Output& output);
+
+/// Throws when the validation layer (RELIEF_VALIDATE=1) complained.
+void checkValidation(const Device& device);
 
 NormalKind normalKind(const std::string& word);
 

@@ -17,7 +17,7 @@ struct RenderArgs {
 Show showOf(const std::string& word) {
     static const std::map<std::string, Show> words{{"shaded", Show::shaded}, {"normal", Show::normal},
                                                    {"height", Show::height}, {"rate", Show::rate},
-                                                   {"faces", Show::faces}, {"wireframe", Show::wireframe}};
+                                                   {"faces", Show::faces},   {"wireframe", Show::wireframe}};
     return words.at(word);
 }
 
@@ -66,27 +66,41 @@ Finish finishOf(const PictureArgs& args) {
     return finish;
 }
 
-void report(const RenderArgs& args, const Loaded& loaded, const Device& device, const Model& model, const FrameStats& stats) {
+void report(const RenderArgs& args, const Loaded& loaded, const Device& device, const Model& model,
+            const FrameStats& stats) {
     const std::uint64_t mapBytes = loaded.height ? loaded.height->byteCount() : 0;
     if (args.output.isJson) {
-        std::cout << nlohmann::json{{"picture", args.target}, {"device", device.traits().name},
-                                    {"triangles", stats.triangleCount}, {"faces", stats.faceCount},
-                                    {"draws", stats.drawCount}, {"max_rate", stats.maxRate},
-                                    {"cage_bytes", loaded.cage.byteCount()}, {"map_bytes", mapBytes},
-                                    {"vertices", stats.vertexCount}, {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
-                                    {"device_bytes", model.byteCount()}, {"load_ms", 1e3 * loaded.loadSeconds},
-                                    {"surface_ms", 1e3 * loaded.surfaceSeconds}, {"table_ms", 1e3 * loaded.surface.tableSeconds},
-                                    {"rate_ms", stats.rateMs}, {"shadow_ms", stats.shadowMs}, {"color_ms", stats.colorMs}, {"light_ms", stats.lightMs},
-                                    {"frame_ms", stats.wallMs}}.dump(2) << '\n';
+        std::cout << nlohmann::json{{"picture", args.target},
+                                    {"device", device.traits().name},
+                                    {"triangles", stats.triangleCount},
+                                    {"faces", stats.faceCount},
+                                    {"draws", stats.drawCount},
+                                    {"max_rate", stats.maxRate},
+                                    {"cage_bytes", loaded.cage.byteCount()},
+                                    {"map_bytes", mapBytes},
+                                    {"vertices", stats.vertexCount},
+                                    {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
+                                    {"device_bytes", model.byteCount()},
+                                    {"load_ms", 1e3 * loaded.loadSeconds},
+                                    {"surface_ms", 1e3 * loaded.surfaceSeconds},
+                                    {"table_ms", 1e3 * loaded.surface.tableSeconds},
+                                    {"rate_ms", stats.rateMs},
+                                    {"shadow_ms", stats.shadowMs},
+                                    {"color_ms", stats.colorMs},
+                                    {"light_ms", stats.lightMs},
+                                    {"frame_ms", stats.wallMs}}
+                         .dump(2)
+                  << '\n';
     } else if (!args.output.isQuiet) {
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
                                  device.traits().name);
         if (args.output.isVerbose)
-            std::cerr << fmt::format("load {:.0f} ms, surface {:.0f} ms (OpenSubdiv {:.0f}), rates {:.1f} ms, shadow {:.1f} ms, "
-                                     "color {:.1f} ms, light {:.1f} ms, {} faces in {} draws, rate up to {}, {} on the device\n",
-                                     1e3 * loaded.loadSeconds, 1e3 * loaded.surfaceSeconds, 1e3 * loaded.surface.tableSeconds,
-                                     stats.rateMs, stats.shadowMs, stats.colorMs, stats.lightMs, stats.faceCount, stats.drawCount,
-                                     stats.maxRate, humanBytes(model.byteCount()));
+            std::cerr << fmt::format(
+                "load {:.0f} ms, surface {:.0f} ms (OpenSubdiv {:.0f}), rates {:.1f} ms, shadow {:.1f} ms, "
+                "color {:.1f} ms, light {:.1f} ms, {} faces in {} draws, rate up to {}, {} on the device\n",
+                1e3 * loaded.loadSeconds, 1e3 * loaded.surfaceSeconds, 1e3 * loaded.surface.tableSeconds, stats.rateMs,
+                stats.shadowMs, stats.colorMs, stats.lightMs, stats.faceCount, stats.drawCount, stats.maxRate,
+                humanBytes(model.byteCount()));
     }
 }
 
@@ -99,7 +113,8 @@ int render(const RenderArgs& args) {
     std::optional<Image> albedo;
     if (!args.picture.albedo.empty()) albedo = readImage(args.picture.albedo);
     if (albedo && albedo->channels < 3)
-        fail(Failure::input, "{}: an albedo map has 3 channels, this one has {}", args.picture.albedo, albedo->channels);
+        fail(Failure::input, "{}: an albedo map has 3 channels, this one has {}", args.picture.albedo,
+             albedo->channels);
     std::optional<Environment> environment;
     if (!args.picture.environment.empty()) environment = loadEnvironment(args.picture.environment);
     const std::vector<dvec3> points = outlineOf(loaded);
@@ -108,8 +123,11 @@ int render(const RenderArgs& args) {
     Device device({.name = args.picture.device});
     RenderOptions options = renderOptions(args, device, points);
     if (environment) options.lighting.environment = &*environment;
-    const Model model(device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap(),
-                               .dense = loaded.dense ? &*loaded.dense : nullptr, .albedo = albedo ? &*albedo : nullptr});
+    const Model model(device, {.surface = &loaded.surface,
+                               .cagePositions = loaded.cage.positions,
+                               .height = loaded.heightMap(),
+                               .dense = loaded.dense ? &*loaded.dense : nullptr,
+                               .albedo = albedo ? &*albedo : nullptr});
     progress.advance();
     Renderer renderer(device, {.width = args.picture.size[0], .height = args.picture.size[1]});
     const Picture picture = renderer.render(model, options);
@@ -117,8 +135,7 @@ int render(const RenderArgs& args) {
     writePicture(args.target, picture, finishOf(args.picture));
     progress.advance();
     report(args, loaded, device, model, picture.stats);
-    if (!device.validationMessages().empty())
-        fail(Failure::internal, "the Vulkan validation layer has {} complaints", device.validationMessages().size());
+    checkValidation(device);
     return 0;
 }
 
@@ -130,11 +147,12 @@ Run addRender(CLI::App& app) {
     app.add_option("-o,--output", args->target, "picture to write: .png or .exr")->required()->option_text("PICTURE");
     addPicture(app, args->picture);
     addOutput(app, args->output);
-    app.footer("examples:\n"
-               "  relief render meshes/torus.obj --height golf.exr -o golf.png\n"
-               "  relief render cage.obj --height wrinkles.png --scale 0.05 --albedo skin.png --edge-pixels 1 -o face.png\n"
-               "  relief render cage.obj --show wireframe --rate 8 --size 800,600 --azimuth 45 -o wire.png\n"
-               "  relief render dense.obj -o dense.exr");
+    app.footer(
+        "examples:\n"
+        "  relief render meshes/torus.obj --height golf.exr -o golf.png\n"
+        "  relief render cage.obj --height wrinkles.png --scale 0.05 --albedo skin.png --edge-pixels 1 -o face.png\n"
+        "  relief render cage.obj --show wireframe --rate 8 --size 800,600 --azimuth 45 -o wire.png\n"
+        "  relief render dense.obj -o dense.exr");
     return [args] { return render(*args); };
 }
 
