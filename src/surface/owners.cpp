@@ -63,15 +63,14 @@ private:
         return std::uint32_t(ptex_.GetFaceId(face) + (isNgon(face) ? corner % sizeOf(face) : 0));
     }
 
-    // OpenSubdiv makes boundary and non-manifold edges infinitely sharp.
+    // OpenSubdiv makes boundary edges, non-manifold edges and non-manifold vertices infinitely sharp.
     [[nodiscard]] bool isAgreedEdge(int edge) const {
         return isBilinear_ || level_.IsEdgeInfSharp(edge) || level_.GetEdgeSharpness(edge) > sharpLimit_;
     }
 
     [[nodiscard]] bool isAgreedVertex(int vertex) const {
         const auto edges = level_.GetVertexEdges(vertex);
-        return isBilinear_ || level_.IsVertexNonManifold(vertex) || level_.IsVertexInfSharp(vertex) ||
-               level_.GetVertexSharpness(vertex) > sharpLimit_ ||
+        return isBilinear_ || level_.IsVertexInfSharp(vertex) || level_.GetVertexSharpness(vertex) > sharpLimit_ ||
                std::any_of(edges.begin(), edges.end(), [&](int edge) { return isAgreedEdge(edge); });
     }
 

@@ -48,8 +48,8 @@ public:
         if (open_ == kNone) return;
         const std::size_t first = entries_.size();
         for (const std::uint32_t i : used_) {
-            if (sums_[i].weight != 0) entries_.push_back({i, sums_[i].weight});
-            sums_[i] = {};
+            if (sums_[i] != 0) entries_.push_back({i, sums_[i]});
+            sums_[i] = 0;
         }
         rows_[open_] = {first, entries_.size() - first};
         used_.clear();
@@ -62,10 +62,6 @@ private:
     struct Range {
         std::size_t first = 0, count = 0;
     };
-    struct Sum {
-        double weight = 0;
-        bool isUsed = false;
-    };
 
     void open(std::size_t index) {
         close();
@@ -75,16 +71,15 @@ private:
     void add(std::size_t other, double w) {
         if (w == 0) return;
         for (const Entry& entry : row(other)) {
-            Sum& sum = sums_[entry.index];
-            if (!sum.isUsed) used_.push_back(entry.index);
-            sum.isUsed = true;
-            sum.weight += w * entry.weight;
+            double& sum = sums_[entry.index];
+            if (sum == 0) used_.push_back(entry.index); // twice where a sum crosses 0: close() clears it at the first
+            sum += w * entry.weight;
         }
     }
 
     std::vector<Range> rows_;
     std::vector<Entry> entries_;
-    std::vector<Sum> sums_;           ///< of the open row, one a cage point
+    std::vector<double> sums_;        ///< of the open row, one a cage point
     std::vector<std::uint32_t> used_; ///< cage points that the open row has
     std::size_t open_ = kNone;
 };

@@ -165,6 +165,7 @@ inline std::vector<Family> otherFamilies() {
         {"loop icosahedron", withFlatTexCoords(icosahedron()), Scheme::loop},
         {"loop creased icosahedron", withCreases(icosahedron(), {0, 11, 5}, 10), Scheme::loop},
         {"loop semi-sharp icosahedron", withCreases(icosahedron(), {0, 11, 5}, 1.6F), Scheme::loop},
+        {"loop sharper icosahedron", withCreases(icosahedron(), {0, 11, 5}, 4.5F), Scheme::loop},
         {"loop torus with seams", bent(test::triangleTorus()), Scheme::loop},
         {"loop sheet", bent(triangles), Scheme::loop},
         {"loop sheet with a hole", withHoles(bent(triangles), {9}), Scheme::loop},

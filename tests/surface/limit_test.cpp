@@ -170,7 +170,7 @@ TEST(LimitDerivatives, AreThoseOfThePositionsInsideEndCaps) {
         const int isolation = 2;
         const ReferenceSurface surface(family.cage, {family.scheme, isolation});
         const double h = 1.0 / 512;
-        double first = 0, second = 0;
+        double first = 0, second = 0, tex = 0;
         const auto test = [&](int face, const dvec2& uv) {
             const auto p = [&](int a, int b) { return surface.limit(face, uv + h * dvec2(a, b)).p; };
             const LimitFrame frame = surface.limit(face, uv);
@@ -179,12 +179,17 @@ TEST(LimitDerivatives, AreThoseOfThePositionsInsideEndCaps) {
             second = std::max({second, glm::length(frame.puu - difference(kSecond, kNone, 0, 0, p) / (h * h)),
                                glm::length(frame.puv - difference(kFirst, kFirst, 0, 0, p) / (h * h)),
                                glm::length(frame.pvv - difference(kNone, kSecond, 0, 0, p) / (h * h))});
+            const auto st = [&](int a, int b) { return surface.texture(face, uv + h * dvec2(a, b)).st; };
+            const dmat2 jacobian = surface.texture(face, uv).jacobian;
+            tex = std::max({tex, glm::length(jacobian[0] - difference(kFirst, kNone, 0, 0, st) / h),
+                            glm::length(jacobian[1] - difference(kNone, kFirst, 0, 0, st) / h)});
         };
         atGridPoints(surface, 64, 6, 16, [&](int face, int i, int j) { test(face, gridPoint(i, j, 64)); });
         atGridPoints(surface, 64, 10, 16, [&](int face, int i, int j) { test(face, gridPoint(i, j, 64)); });
         const double size = sizeOf(family.cage);
         EXPECT_LE(first, 2e-6 * size);
         EXPECT_LE(second, 1e-4 * size);
+        EXPECT_LE(tex, 2e-6);
     }
 }
 
