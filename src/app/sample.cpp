@@ -22,14 +22,15 @@ bool parseField(const char*& at, const char* end, T& value) {
     while (at != end && *at == ' ') ++at;
     const auto [next, error] = std::from_chars(at, end, value);
     if (error != std::errc()) return false;
-    for (at = next; at != end && (*at == ' ' || *at == '\r'); ++at) {}
+    for (at = next; at != end && (*at == ' ' || *at == '\r'); ++at) {
+    }
     return true;
 }
 
 bool parseRow(std::string_view line, SampleQuery& query) {
     const char *at = line.data(), *end = at + line.size();
-    return parseField(at, end, query.face) && at != end && *at++ == ',' && parseField(at, end, query.uv.x) && at != end &&
-           *at++ == ',' && parseField(at, end, query.uv.y) && at == end;
+    return parseField(at, end, query.face) && at != end && *at++ == ',' && parseField(at, end, query.uv.x) &&
+           at != end && *at++ == ',' && parseField(at, end, query.uv.y) && at == end;
 }
 
 /// Rows face,u,v; a first line that does not start with a number is a header.
@@ -45,7 +46,8 @@ std::vector<SampleQuery> readPoints(const std::string& path) {
         const bool isHeader = lineNumber == 1 && line.starts_with("face");
         if (isHeader || line.empty() || line == "\r") continue;
         SampleQuery query{};
-        if (!parseRow(line, query)) fail(Failure::input, "{}:{}: a row is face,u,v, for example 12,0.5,0.25", path, lineNumber);
+        if (!parseRow(line, query))
+            fail(Failure::input, "{}:{}: a row is face,u,v, for example 12,0.5,0.25", path, lineNumber);
         queries.push_back(query);
     }
     return queries;
@@ -60,12 +62,9 @@ void appendRow(std::string& text, const SampleQuery& query, const SampleResult& 
     text += '\n';
 }
 
-int sample(const SampleArgs& args) {
-    const std::vector<SampleQuery> queries = readPoints(args.points);
-    const Loaded loaded = load(args.surface, args.output);
-    if (loaded.dense) fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.surface.cage);
-    Device device({.name = args.device});
-    const Model model(device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+/// One CSV row for each query, with the device's frames.
+std::string sampledRows(Device& device, const Model& model, const std::vector<SampleQuery>& queries,
+                        const SampleArgs& args) {
     SurfaceSampler sampler(device);
     Progress progress("sampling", queries.size(), args.output.progress);
     std::string text(kHeader);
@@ -76,9 +75,32 @@ int sample(const SampleArgs& args) {
         for (std::size_t i = 0; i < part.size(); ++i) appendRow(text, part[i], results[i]);
         progress.advance(part.size());
     }
-    writeWhole(args.target, [&](const std::string& temporary) { writeFile(temporary, text); });
+    return text;
+}
+
+int sample(const SampleArgs& args) {
+    const std::vector<SampleQuery> queries = readPoints(args.points);
+    const Loaded loaded = load(args.surface, args.output);
+    if (loaded.dense)
+        fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.surface.cage);
+    Device device({.name = args.device});
+    const Model model(
+        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    std::string text;
+    try {
+        text = sampledRows(device, model, queries, args);
+    } catch (const Error& error) {
+        if (error.failure != Failure::input) throw;
+        fail(error.failure, "{}: {}", args.points, error.what());
+    }
+    writeFile(args.target, text);
     if (args.output.isJson)
-        std::cout << nlohmann::json{{"rows", queries.size()}, {"device", device.traits().name}, {"output", args.target}}.dump(2) << '\n';
+        std::cout << nlohmann::json{{"rows", queries.size()}, {"device", device.traits().name}, {"output", args.target}}
+                         .dump(2)
+                  << '\n';
+    else if (!args.output.isQuiet)
+        std::cerr << fmt::format("{}: {} points on {}\n", args.target, queries.size(), device.traits().name);
+    checkValidation(device);
     return 0;
 }
 
@@ -87,15 +109,17 @@ int sample(const SampleArgs& args) {
 Run addSample(CLI::App& app) {
     auto args = std::make_shared<SampleArgs>();
     addSurface(app, args->surface);
-    app.add_option("--at", args->points, "rows face,u,v: ptex face and its own coordinates")->required()->option_text("POINTS.csv");
+    app.add_option("--at", args->points, "rows face,u,v: ptex face and its own coordinates")
+        ->required()
+        ->option_text("POINTS.csv");
     app.add_option("-o,--output", args->target, "rows with the frame of each point")->required()->option_text("F.csv");
-    app.add_option("--normal", args->normal, "what m is: limit, first-order or full (full)")
-        ->check(CLI::IsMember({"limit", "first-order", "full"}))->option_text("KIND");
-    app.add_option("--device", args->device, "part of the name of the Vulkan device to use")->option_text("NAME")->group("device");
+    addNormal(app, args->normal);
+    addDevice(app, args->device);
     addOutput(app, args->output);
-    app.footer("columns: p limit point, pu and pv its derivatives, n normal, h height, q displaced point, m its normal\n"
-               "example:\n"
-               "  relief sample cage.obj --height map.exr --at points.csv -o frames.csv");
+    app.footer(
+        "columns: p limit point, pu and pv its derivatives, n normal, h height, q displaced point, m its normal\n"
+        "example:\n"
+        "  relief sample cage.obj --height map.exr --at points.csv -o frames.csv");
     return [args] { return sample(*args); };
 }
 
