@@ -20,11 +20,24 @@ picture() { # NAME CAGE OPTIONS...
 
 maps=$out/maps
 printf '%-22s %8s %8s %9s %7s %10s %7s\n' picture 'cage KiB' 'map KiB' 'dense KiB' 'ratio' triangles ms
-picture octopus octopus --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" --edge-pixels 1.2 --size 1280,1024
-picture orange ball --height "$maps/orange.exr" --albedo "$maps/orange_albedo.png" --edge-pixels 1.5 --roughness 0.35
-picture golf torus --height "$maps/golf.exr" --path grid --edge-pixels 1.5 --elevation 35 --color 0.75,0.75,0.72 --size 1024,768
-picture moon ball --height "$maps/moon.exr" --albedo "$maps/moon_albedo.png" --edge-pixels 1.5 --roughness 0.9 --light -60,15 --background 0.02,0.02,0.03
-picture strawberry strawberry --height "$maps/strawberry.exr" --albedo "$maps/strawberry_albedo.png" --edge-pixels 1.5 --roughness 0.3
-picture terrain plane --height "$maps/terrain.exr" --albedo "$maps/terrain_albedo.png" --wrap clamp --path grid --edge-pixels 1.5 --elevation 30 --roughness 0.9 --size 1280,800
-picture wireframe octopus --height "$maps/octopus.exr" --show wireframe --edge-pixels 10 --size 1280,1024
+picture octopus octopus --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
+    --azimuth -10 --elevation 12 --fov 24 --edge-pixels 1.2 --size 1600,1000
+picture suckers octopus --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
+    --azimuth -60 --elevation 6 --look-at -2.2,1.0,0.95 --distance 4.2 --edge-pixels 1.2 --size 960,800
+picture orange ball --height "$maps/orange.exr" --albedo "$maps/orange_albedo.png" --elevation 35 --edge-pixels 1.5 \
+    --roughness 0.35 --size 800,800
+picture golf torus --height "$maps/golf.exr" --path grid --azimuth 25 --elevation 38 --color 0.6,0.6,0.58 \
+    --edge-pixels 1.5 --size 960,800
+picture moon ball --height "$maps/moon.exr" --albedo "$maps/moon_albedo.png" --path grid --elevation 12 --light 320,18 \
+    --roughness 0.95 --edge-pixels 1.2 --background 0.02,0.02,0.03 --size 800,800
+picture strawberry strawberry --height "$maps/strawberry.exr" --albedo "$maps/strawberry_albedo.png" --azimuth 20 \
+    --elevation 14 --edge-pixels 1.5 --roughness 0.3 --size 800,960
+picture terrain plane --height "$maps/terrain.exr" --albedo "$maps/terrain_albedo.png" --wrap clamp --path grid \
+    --azimuth 20 --elevation 30 --roughness 0.9 --edge-pixels 1.5 --size 1280,800
+picture lantern lantern --height "$maps/lantern.exr" --albedo "$maps/lantern_albedo.png" --azimuth 20 --elevation 18 \
+    --roughness 0.3 --edge-pixels 1.5 --size 800,960
+picture bricks cube --height "$maps/bricks.exr" --albedo "$maps/bricks_albedo.png" --elevation 22 --roughness 0.8 \
+    --edge-pixels 1.5 --path grid --size 800,800
+picture wireframe octopus --height "$maps/octopus.exr" --show wireframe --azimuth -10 --elevation 12 --fov 24 \
+    --edge-pixels 10 --size 1280,800
 rm -f "$out/stats.json"
