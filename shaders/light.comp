@@ -44,21 +44,19 @@ float keySpecular(float nl, float nv, float nh, float vh, float roughness, float
     return distribution * visibility * fresnel * nl;
 }
 
-// Share of the key light that arrives: eight samples of the shadow map in a disc, turned from pixel to pixel.
-const vec2 kDisc[8] = {vec2(0.25, 0.00), vec2(-0.32, 0.29), vec2(0.05, -0.56), vec2(0.40, 0.53),
-                       vec2(-0.74, -0.13), vec2(0.70, -0.45), vec2(-0.23, 0.87), vec2(-0.45, -0.86)};
-
+// Share of the key light that arrives: eight samples of the shadow map on a spiral, turned from pixel to pixel.
 float keyVisibility(vec3 position, vec3 n) {
     if (scene.hasShadows == 0.0) return 1.0;
     float slope = 1.0 - abs(dot(n, scene.keyDirection));
     vec4 clip = scene.worldToShadow * vec4(position + n * scene.shadowBias * (0.5 + 2.0 * slope), 1.0);
-    vec2 center = clip.xy * 0.5 + 0.5;
     float angle = 2.0 * kPi * fract(52.9829189 * fract(dot(vec2(gl_GlobalInvocationID.xy), vec2(0.06711056, 0.00583715))));
-    vec2 x = scene.shadowSoftness * vec2(cos(angle), sin(angle)), y = vec2(-x.y, x.x);
+    vec2 spoke = scene.shadowSoftness * vec2(cos(angle), sin(angle));
+    const mat2 goldenTurn = mat2(-0.737369, 0.675490, -0.675490, -0.737369);
     float lit = 0.0;
     for (int i = 0; i < 8; ++i) {
-        float depth = textureLod(shadowMap, center + kDisc[i].x * x + kDisc[i].y * y, 0.0).r;
-        lit += depth <= clip.z ? 0.125 : 0.0;
+        vec2 at = clip.xy * 0.5 + 0.5 + spoke * sqrt((float(i) + 0.5) * 0.125);
+        lit += textureLod(shadowMap, at, 0.0).r <= clip.z ? 0.125 : 0.0;
+        spoke = goldenTurn * spoke;
     }
     return lit;
 }
@@ -100,32 +98,35 @@ vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color) {
     return color * (0.35 + 0.65 * max(dot(n, v), 0.0));
 }
 
+// No arrays here: indexing them would make compilers unroll the loops around all of shaded().
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, scene.pictureSize))) return;
-    float depths[4], lowest = 1.0, highest = 0.0;
-    vec3 normals[4], colors[4], normal = vec3(0), color = vec3(0);
+    float lowest = 1.0, highest = 0.0;
+    vec3 normal = vec3(0), color = vec3(0);
     for (int i = 0; i < 4; ++i) {
-        depths[i] = texelFetch(depthSamples, at, i).r;
-        normals[i] = fromOctahedral(texelFetch(normalSamples, at, i).xy);
-        colors[i] = texelFetch(colorSamples, at, i).rgb;
-        lowest = min(lowest, depths[i]);
-        highest = max(highest, depths[i]);
-        normal += normals[i];
-        color += 0.25 * colors[i];
+        float depth = texelFetch(depthSamples, at, i).r;
+        lowest = min(lowest, depth);
+        highest = max(highest, depth);
+        normal += fromOctahedral(texelFetch(normalSamples, at, i).xy);
+        color += 0.25 * texelFetch(colorSamples, at, i).rgb;
     }
-    if (highest == 0.0) {
-        imageStore(picture, at, vec4(0));
-        return;
-    }
-    vec2 ndc = (vec2(at) + 0.5) / vec2(scene.pictureSize) * 2.0 - 1.0;
-    bool isOneSurface = highest - lowest < 0.02 * highest && dot(normal, normal) > 12.0;
     vec4 sum = vec4(0);
-    for (int i = 0; i < (isOneSurface ? 1 : 4); ++i) {
-        if (depths[i] == 0.0) continue;
-        float depth = isOneSurface ? 0.5 * (lowest + highest) : depths[i];
-        vec3 n = isOneSurface ? normalize(normal) : normals[i];
-        sum += vec4(seen(ndc, depth, n, isOneSurface ? color : colors[i]), 1.0) * (isOneSurface ? 1.0 : 0.25);
+    if (highest > 0.0) {
+        vec2 ndc = (vec2(at) + 0.5) / vec2(scene.pictureSize) * 2.0 - 1.0;
+        bool isOneSurface = highest - lowest < 0.02 * highest && dot(normal, normal) > 12.0;
+        int count = isOneSurface ? 1 : 4;
+        float depth = 0.5 * (lowest + highest);
+        vec3 n = normal;
+        for (int i = 0; i < count; ++i) {
+            if (!isOneSurface) {
+                depth = texelFetch(depthSamples, at, i).r;
+                n = fromOctahedral(texelFetch(normalSamples, at, i).xy);
+                color = texelFetch(colorSamples, at, i).rgb;
+            }
+            if (depth > 0.0) sum += vec4(seen(ndc, depth, normalize(n), color), 1.0);
+        }
+        sum /= float(count);
     }
     imageStore(picture, at, sum);
 }

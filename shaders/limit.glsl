@@ -211,18 +211,32 @@ LimitFrame bilinear(bool isTexture, uint firstPoint, vec2 uv) {
 }
 #endif
 
-// --- any patch, by OpenSubdiv's basis -------------------------------------------------------------------------------
+#ifdef RELIEF_TRIANGLES
 
-#if defined(RELIEF_TRIANGLES) || defined(RELIEF_GENERIC_BASIS)
-struct Basis {
-    float p[20], du[20], dv[20], duu[20], duv[20], dvv[20];
-    int count;
+// --- triangles, by OpenSubdiv's basis -------------------------------------------------------------------------------
+
+// Weights of up to 18 control points for the point and its derivatives.
+struct Weights {
+    float p[18], du[18], dv[18], duu[18], duv[18], dvv[18];
 };
 
-#ifdef RELIEF_TRIANGLES
+LimitFrame weighted(Weights w, int count, bool isTexture, uint firstPoint) {
+    precise LimitFrame f = kNoFrame;
+    for (int i = 0; i < count; ++i) {
+        vec3 c = controlPoint(isTexture, firstPoint + uint(i));
+        f.p += w.p[i] * c;
+        f.pu += w.du[i] * c;
+        f.pv += w.dv[i] * c;
+        f.puu += w.duu[i] * c;
+        f.puv += w.duv[i] * c;
+        f.pvv += w.dvv[i] * c;
+    }
+    return f;
+}
+
 // OpenSubdiv 3.5 differentiates a Gregory triangle as if its quotients were constant. Each interior Bezier weight B is
 // shared by two points with the quotients r = a/(a+b) and 1 - r; the product rule adds B r' (and B' r' twice, B r'').
-void addQuotientRule(inout Basis w, int first, float a, float b, vec2 da, vec2 db) {
+void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2 db) {
     float sum = a + b;
     if (sum <= 0.0) return;
     vec2 dsum = da + db;
@@ -241,34 +255,56 @@ void addQuotientRule(inout Basis w, int first, float a, float b, vec2 da, vec2 d
         w.dvv[first + i] += sign * (2.0 * dB.y * dr.y + B * rvv);
     }
 }
-#endif
 
-Basis genericBasis(uint type, uint param1, vec2 uv) {
-    Basis w;
-    OsdPatchParam param = OsdPatchParamInit(0, int(param1), 0.0);
-    w.count = OsdEvaluatePatchBasisNormalized(int(type), param, uv.x, uv.y, w.p, w.du, w.dv, w.duu, w.duv, w.dvv);
-#ifdef RELIEF_TRIANGLES
+LimitFrame trianglePatch(bool isTexture, uint type, uint param1, uint firstPoint, vec2 uv) {
+    Weights w;
+    int count = 18;
     if (type == kPatchGregoryTriangle) {
+        Osd_EvalBasisGregoryTri(uv.x, uv.y, w.p, w.du, w.dv, w.duu, w.duv, w.dvv);
         float u = uv.x, v = uv.y, t = 1.0 - u - v;
         addQuotientRule(w, 3, u, v, vec2(1, 0), vec2(0, 1));
         addQuotientRule(w, 8, v, t, vec2(0, 1), vec2(-1, -1));
         addQuotientRule(w, 13, t, u, vec2(-1, -1), vec2(1, 0));
+    } else {
+        float p[12], du[12], dv[12], duu[12], duv[12], dvv[12];
+        count = 12;
+        if (type == kPatchLoop) {
+            Osd_EvalBasisBoxSplineTri(uv.x, uv.y, p, du, dv, duu, duv, dvv);
+            int boundary = int(param1 >> 7) & 31;
+            if (boundary != 0) Osd_boundBasisBoxSplineTri(boundary, p, du, dv, duu, duv, dvv);
+        } else {
+            count = 3;
+            p[0] = 1.0 - uv.x - uv.y, p[1] = uv.x, p[2] = uv.y;
+            du[0] = -1.0, du[1] = 1.0, du[2] = 0.0;
+            dv[0] = -1.0, dv[1] = 0.0, dv[2] = 1.0;
+            for (int i = 0; i < 3; ++i) duu[i] = duv[i] = dvv[i] = 0.0;
+        }
+        for (int i = 0; i < 12; ++i) {
+            w.p[i] = p[i], w.du[i] = du[i], w.dv[i] = dv[i];
+            w.duu[i] = duu[i], w.duv[i] = duv[i], w.dvv[i] = dvv[i];
+        }
     }
-#endif
-    return w;
+    return weighted(w, count, isTexture, firstPoint);
 }
+#endif
+
+#ifdef RELIEF_GENERIC_BASIS
+
+// --- any patch, by OpenSubdiv's generic basis: the check of the forms above -----------------------------------------
 
 LimitFrame generic(bool isTexture, uint type, uint param1, uint firstPoint, vec2 uv) {
-    Basis w = genericBasis(type, param1, uv);
-    precise LimitFrame f = kNoFrame;
-    for (int i = 0; i < w.count; ++i) {
+    float p[20], du[20], dv[20], duu[20], duv[20], dvv[20];
+    OsdPatchParam param = OsdPatchParamInit(0, int(param1), 0.0);
+    int count = OsdEvaluatePatchBasisNormalized(int(type), param, uv.x, uv.y, p, du, dv, duu, duv, dvv);
+    LimitFrame f = kNoFrame;
+    for (int i = 0; i < count; ++i) {
         vec3 c = controlPoint(isTexture, firstPoint + uint(i));
-        f.p += w.p[i] * c;
-        f.pu += w.du[i] * c;
-        f.pv += w.dv[i] * c;
-        f.puu += w.duu[i] * c;
-        f.puv += w.duv[i] * c;
-        f.pvv += w.dvv[i] * c;
+        f.p += p[i] * c;
+        f.pu += du[i] * c;
+        f.pv += dv[i] * c;
+        f.puu += duu[i] * c;
+        f.puv += duv[i] * c;
+        f.pvv += dvv[i] * c;
     }
     return f;
 }
@@ -280,7 +316,7 @@ LimitFrame patchFrame(bool isTexture, Patch patch_, vec2 uv) {
     uint param1 = isTexture ? patch_.texParam1 : patch_.param1;
     uint firstPoint = isTexture ? patch_.texFirstPoint : patch_.firstPoint;
 #ifdef RELIEF_TRIANGLES
-    return generic(isTexture, type, param1, firstPoint, uv);
+    return trianglePatch(isTexture, type, param1, firstPoint, uv);
 #else
 #ifdef RELIEF_GENERIC_BASIS
     if (kGenericBasis) return generic(isTexture, type, param1, firstPoint, uv);

@@ -1,6 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#ifndef RELIEF_TRIANGLES
 #define RELIEF_GENERIC_BASIS
+#endif
 #include "displaced.glsl"
 
 layout(local_size_x = 64) in;
