@@ -44,7 +44,8 @@ HeightMap bumps(int side, double amplitude) {
     std::vector<float> texels(std::size_t(side) * side);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
-            texels[std::size_t(y) * side + x] = float(std::sin(x * 64 * 6.2831853 / side) * std::sin(y * 64 * 6.2831853 / side));
+            texels[std::size_t(y) * side + x] =
+                float(std::sin(x * 64 * 6.2831853 / side) * std::sin(y * 64 * 6.2831853 / side));
     return makeHeightMap(side, side, std::move(texels), 0, amplitude, Wrap::repeat);
 }
 
@@ -63,7 +64,8 @@ DenseMesh denseOf(const ReferenceSurface& surface, const HeightMap& map, int rat
         const auto at = [&](int i, int j) { return first + std::uint32_t(j * (rate + 1) + i); };
         for (int j = 0; j < rate; ++j)
             for (int i = 0; i < rate; ++i)
-                for (const std::uint32_t v : {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)})
+                for (const std::uint32_t v :
+                     {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)})
                     mesh.indices.push_back(v);
     }
     return mesh;
@@ -117,21 +119,22 @@ void measure(Renderer& renderer, const RenderOptions& base, std::vector<Series>&
 void print(const std::vector<Series>& all) {
     const Series& base = all.back();
     for (const Series& series : all)
-        std::cout << fmt::format("{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x\n",
-                                 series.name, series.triangles, median(series.device),
-                                 median(series.device) / median(base.device), median(series.wall),
-                                 median(series.wall) / median(base.wall));
+        std::cout << fmt::format(
+            "{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x\n", series.name,
+            series.triangles, median(series.device), median(series.device) / median(base.device), median(series.wall),
+            median(series.wall) / median(base.wall));
 }
 
 int benchFrame() {
     Subject subject;
     Device device;
-    const Model displaced(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    const Model displaced(
+        device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
     const DenseMesh mesh = denseOf(subject.reference, subject.map, subject.rate);
     const Model dense(device, {.dense = &mesh});
     Renderer renderer(device, {});
-    std::cout << fmt::format("frame: {} at rate {}, 1024 x 1024, 4 samples, full normals, {} on {}\n", subject.path, subject.rate,
-                             "2048 x 2048 float map", device.traits().name);
+    std::cout << fmt::format("frame: {} at rate {}, 1024 x 1024, 4 samples, full normals, {} on {}\n", subject.path,
+                             subject.rate, "2048 x 2048 float map", device.traits().name);
     std::vector<Series> all;
     if (device.traits().hasTessellation) all.push_back({"tessellation", &displaced, Path::tessellation, {}, {}});
     all.push_back({"grid", &displaced, Path::grid, {}, {}});
@@ -152,7 +155,8 @@ int benchSplit() {
         std::cout << "split: " << device.traits().name << " has no tessellation shaders\n";
         return 0;
     }
-    const Model model(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    const Model model(device,
+                      {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
     for (const std::uint32_t limit : {1'000u, 2'500u, 5'000u, 10'000u, 20'000u, 40'000u, 80'000u}) {
         RenderOptions options = subject.options;
         options.tessellatedVerticesPerDraw = limit;
@@ -188,7 +192,8 @@ std::pair<double, long> coldRun(const std::vector<std::string>& words) {
 /// A whole `relief render` with nothing cached against the warm frame that it contains.
 int benchCold() {
     const Subject subject;
-    const std::string folder = (std::filesystem::temp_directory_path() / fmt::format("relief_bench_{}", getpid())).string();
+    const std::string folder =
+        (std::filesystem::temp_directory_path() / fmt::format("relief_bench_{}", getpid())).string();
     std::filesystem::create_directories(folder);
     const std::string map = folder + "/map.exr", picture = folder + "/picture.png";
     writeImage(map, {subject.map.width, subject.map.height, 1, subject.map.texels}, SampleType::real);
@@ -196,13 +201,15 @@ int benchCold() {
     std::vector<double> cold, warm, tables;
     long peak = 0;
     for (int round = 0; round < 5; ++round) {
-        const auto [ms, kib] = coldRun({"relief", "render", subject.path, "--height", map, "--scale",
-                                        fmt::format("{}", subject.map.scale), "--edge-pixels", "4", "-q", "-o", picture});
+        const auto [ms, kib] =
+            coldRun({"relief", "render", subject.path, "--height", map, "--scale", fmt::format("{}", subject.map.scale),
+                     "--edge-pixels", "4", "-q", "-o", picture});
         cold.push_back(ms);
         peak = std::max(peak, kib);
         Device device;
         tables.push_back(1e3 * buildSurface(subject.cage, {}).tableSeconds);
-        const Model model(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+        const Model model(
+            device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
         Renderer renderer(device, {});
         RenderOptions options = subject.options;
         options.rate.reset();
@@ -212,10 +219,11 @@ int benchCold() {
         warm.push_back(renderer.render(model, options).stats.wallMs);
     }
     std::filesystem::remove_all(folder);
-    std::cout << fmt::format("cold: whole relief render {:.0f} ms, warm frame {:.0f} ms, OpenSubdiv's tables {:.0f} ms: "
-                             "(render - tables) / frame = {:.2f}; peak memory {}\n",
-                             median(cold), median(warm), median(tables), (median(cold) - median(tables)) / median(warm),
-                             humanBytes(std::uint64_t(peak) * 1024));
+    std::cout << fmt::format(
+        "cold: whole relief render {:.0f} ms, warm frame {:.0f} ms, OpenSubdiv's tables {:.0f} ms: "
+        "(render - tables) / frame = {:.2f}; peak memory {}\n",
+        median(cold), median(warm), median(tables), (median(cold) - median(tables)) / median(warm),
+        humanBytes(std::uint64_t(peak) * 1024));
     return 0;
 }
 
@@ -224,7 +232,9 @@ int benchCold() {
 int main(int argc, char** argv) {
     try {
         const std::vector<std::string> wanted(argv + 1, argv + argc);
-        const auto runs = [&](const char* name) { return wanted.empty() || std::ranges::find(wanted, name) != wanted.end(); };
+        const auto runs = [&](const char* name) {
+            return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
+        };
         if (runs("frame")) benchFrame();
         if (runs("split")) benchSplit();
         if (runs("cold")) benchCold();

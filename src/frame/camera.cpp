@@ -3,7 +3,7 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "frame/frame.h"
+#include "frame/passes.h"
 
 namespace relief {
 
@@ -65,6 +65,35 @@ Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, 
     camera.nearDistance = std::max(toCenter - size, 1e-3 * size);
     camera.farDistance = toCenter + size;
     return camera;
+}
+
+mat4 perspectiveMatrix(const Camera& camera, double aspect) {
+    const dvec3 back = glm::normalize(camera.eye - camera.target);
+    const dvec3 helper = std::abs(back.y) > 0.9999 ? dvec3(0, 0, back.y > 0 ? -1 : 1) : dvec3(0, 1, 0);
+    const dvec3 right = glm::normalize(glm::cross(helper, back)), up = glm::cross(back, right);
+    const double f = 1 / std::tan(glm::radians(camera.fieldOfView) / 2);
+    const double n = camera.nearDistance, k = n / (camera.farDistance - n);
+    const dvec3 rows[4] = {right * (f / aspect), up * -f, back * k, -back};
+    const double offsets[4] = {0, 0, n * (k + 1), 0};
+    mat4 m;
+    for (int r = 0; r < 4; ++r) {
+        for (int c = 0; c < 3; ++c) m[c][r] = float(rows[r][c]);
+        m[3][r] = float(offsets[r] - glm::dot(rows[r], camera.eye));
+    }
+    return m;
+}
+
+mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds) {
+    const dvec3 helper = std::abs(towardsLight.y) > 0.99 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
+    const dvec3 right = glm::normalize(glm::cross(helper, towardsLight)), up = glm::cross(towardsLight, right);
+    const double radius = std::max(0.52 * bounds.diagonal(), 1e-9);
+    const dvec3 rows[3] = {right / radius, up / radius, towardsLight * (0.5 / radius)};
+    mat4 m(1);
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) m[c][r] = float(rows[r][c]);
+        m[3][r] = float((r == 2 ? 0.5 : 0.0) - glm::dot(rows[r], bounds.center()));
+    }
+    return m;
 }
 
 } // namespace relief

@@ -13,7 +13,8 @@ struct VertexKey {
 
 struct VertexHash {
     std::size_t operator()(const VertexKey& k) const {
-        return (std::size_t(k.position) * 0x9e3779b97f4a7c15u) ^ (std::size_t(k.texCoord) << 21) ^ (std::size_t(k.normal) << 42);
+        return (std::size_t(k.position) * 0x9e3779b97f4a7c15u) ^ (std::size_t(k.texCoord) << 21) ^
+               (std::size_t(k.normal) << 42);
     }
 };
 

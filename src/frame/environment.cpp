@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kStudioHeight = 64;
-constexpr int kLargestHeight = 512;  // of a user's environment; sharper reflections do not show on a dielectric
-constexpr int kFilteredHeight = 16;  // levels of this size and below are convolved, larger ones averaged
+constexpr int kLargestHeight = 512; // of a user's environment; sharper reflections do not show on a dielectric
+constexpr int kFilteredHeight = 16; // levels of this size and below are convolved, larger ones averaged
 
 /// Direction of the centre of texel (x,y); the inverse of equirectangular() in shade.frag.
 dvec3 texelDirection(const Image& image, int x, int y) {
@@ -39,7 +39,8 @@ Image halved(const Image& from) {
         for (int x = 0; x < to.width; ++x) {
             dvec3 sum(0);
             for (int k = 0; k < 4; ++k)
-                sum += dvec3(rgb(from, std::min(2 * x + k % 2, from.width - 1), std::min(2 * y + k / 2, from.height - 1)));
+                sum +=
+                    dvec3(rgb(from, std::min(2 * x + k % 2, from.width - 1), std::min(2 * y + k / 2, from.height - 1)));
             set(to, x, y, sum / 4.0);
         }
     return to;
@@ -77,10 +78,12 @@ void project(const Image& image, vec3 irradiance[9]) {
         for (int x = 0; x < image.width; ++x) {
             const dvec3 d = texelDirection(image, x, y);
             const dvec3 light = dvec3(rgb(image, x, y)) * texelSolidAngle(image, y);
-            const double basis[9] = {1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
+            const double basis[9] = {
+                1, d.y, d.z, d.x, d.x * d.y, d.y * d.z, 3 * d.z * d.z - 1, d.x * d.z, d.x * d.x - d.y * d.y};
             for (int k = 0; k < 9; ++k) sums[k] += basis[k] * light;
         }
-    constexpr double kBasis[9] = {0.282095, 0.488603, 0.488603, 0.488603, 1.092548, 1.092548, 0.315392, 1.092548, 0.546274};
+    constexpr double kBasis[9] = {0.282095, 0.488603, 0.488603, 0.488603, 1.092548,
+                                  1.092548, 0.315392, 1.092548, 0.546274};
     for (int k = 0; k < 9; ++k) {
         const double lobe = k == 0 ? kPi : k < 4 ? 2 * kPi / 3 : kPi / 4;
         irradiance[k] = vec3(sums[k] * (kBasis[k] * kBasis[k] * lobe));
@@ -119,7 +122,7 @@ dvec3 studioLight(const dvec3& d) {
     const dvec3 sky = glm::mix(dvec3(0.50, 0.52, 0.55), dvec3(0.95, 1.0, 1.08), glm::smoothstep(-0.05, 0.9, d.y));
     const dvec3 floor = glm::mix(dvec3(0.50, 0.52, 0.55), dvec3(0.20, 0.18, 0.165), glm::smoothstep(0.05, -0.5, d.y));
     dvec3 light = 0.34 * (d.y > 0 ? sky : floor);
-    light += dvec3(2.1, 2.05, 1.95) * softBox(d, -60, 35, 0.55, 0.45);  // the large soft box, upper left
+    light += dvec3(2.1, 2.05, 1.95) * softBox(d, -60, 35, 0.55, 0.45); // the large soft box, upper left
     light += dvec3(1.6, 1.75, 2.0) * softBox(d, 125, 25, 0.25, 0.7);   // a cool strip behind, for the rim
     light += dvec3(0.7, 0.7, 0.7) * softBox(d, 0, 88, 0.8, 0.5);       // overhead
     return light;
@@ -137,7 +140,8 @@ Environment studioEnvironment() {
 Environment loadEnvironment(const std::string& path) {
     Image file = readImage(path);
     if (file.channels < 3 || file.width < 8 || file.height < 4)
-        fail(Failure::input, "{}: an environment is a color picture of at least 8 x 4 pixels; this one is {} x {} with {} channels",
+        fail(Failure::input,
+             "{}: an environment is a color picture of at least 8 x 4 pixels; this one is {} x {} with {} channels",
              path, file.width, file.height, file.channels);
     Image image = blank(file.width, file.height);
     for (int y = 0; y < file.height; ++y)
@@ -145,7 +149,8 @@ Environment loadEnvironment(const std::string& path) {
             for (int c = 0; c < 3; ++c) {
                 const float value = file.at(x, y)[c];
                 if (!std::isfinite(value) || value < 0)
-                    fail(Failure::input, "{}: pixel {},{} is {}; radiance is finite and not negative", path, x, y, value);
+                    fail(Failure::input, "{}: pixel {},{} is {}; radiance is finite and not negative", path, x, y,
+                         value);
                 image.at(x, y)[c] = value;
             }
     return prepare(std::move(image));

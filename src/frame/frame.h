@@ -22,22 +22,22 @@ constexpr std::uint64_t denseBytes(std::uint64_t vertexCount, std::uint64_t tria
 /// Triangles with one normal and one texture coordinate a vertex.
 struct DenseMesh {
     std::vector<vec3> positions, normals;
-    std::vector<vec2> texCoords;            ///< empty, or one a vertex
-    std::vector<std::uint32_t> indices;     ///< three a triangle
+    std::vector<vec2> texCoords;        ///< empty, or one a vertex
+    std::vector<std::uint32_t> indices; ///< three a triangle
 
     [[nodiscard]] std::uint64_t byteCount() const;
 };
 
-/// Polygons as fans of triangles, without subdivision. Vertices repeat only where normals or texture coordinates differ;
-/// normals that the file lacks are the area-weighted sum of the faces around a vertex.
+/// Polygons as fans of triangles, without subdivision. Vertices repeat only where normals or texture coordinates
+/// differ; normals that the file lacks are the area-weighted sum of the faces around a vertex.
 DenseMesh denseMesh(const Cage& cage);
 
 struct ModelDesc {
-    const Surface* surface = nullptr;       ///< a subdivision surface with its posed cage points ...
+    const Surface* surface = nullptr; ///< a subdivision surface with its posed cage points ...
     std::span<const vec3> cagePositions;
     const HeightMap* height = nullptr;
-    const DenseMesh* dense = nullptr;       ///< ... or a dense mesh
-    const Image* albedo = nullptr;          ///< 3 or more channels, sRGB-encoded values 0..1
+    const DenseMesh* dense = nullptr; ///< ... or a dense mesh
+    const Image* albedo = nullptr;    ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
 /// What the device holds of a cage (or a dense mesh): flat arrays and maps. The desc may go away afterwards.
@@ -47,7 +47,8 @@ public:
 
     /// Fills the model's part of a scene and of its bindings (kBind...; the samplers of images are not touched).
     void describe(Scene& scene, std::span<Binding> bindings) const;
-    /// Segments of every edge when a cage edge has `rate`: half of it, rounded up, for the halves of edges beside n-gons.
+    /// Segments of every edge when a cage edge has `rate`: half of it, rounded up, for the halves of edges beside
+    /// n-gons.
     [[nodiscard]] std::vector<std::uint32_t> uniformRates(std::uint32_t rate) const;
 
     [[nodiscard]] bool isDense() const { return isDense_; }
@@ -93,9 +94,9 @@ private:
 /// Angles in degrees: azimuth 0 looks along -Z and grows to the right around Y, elevation up.
 struct CameraOptions {
     double azimuth = 30, elevation = 20;
-    double fieldOfView = 30;                ///< vertical
-    std::optional<double> distance;         ///< from the point looked at, cage units; default frames the object
-    std::optional<dvec3> lookAt;            ///< default: the centre of the object
+    double fieldOfView = 30;        ///< vertical
+    std::optional<double> distance; ///< from the point looked at, cage units; default frames the object
+    std::optional<dvec3> lookAt;    ///< default: the centre of the object
 };
 
 struct Camera {
@@ -114,8 +115,8 @@ dvec3 directionAt(double azimuth, double elevation);
 
 /// An equirectangular environment, ready to light with.
 struct Environment {
-    std::vector<Image> levels;              ///< RGB, level l for roughness l / (levels - 1)
-    vec3 irradiance[9];                     ///< see shade.frag
+    std::vector<Image> levels; ///< RGB, level l for roughness l / (levels - 1)
+    vec3 irradiance[9];        ///< see shade.frag
 };
 
 /// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
@@ -126,47 +127,47 @@ Environment loadEnvironment(const std::string& path);
 
 struct Lighting {
     double keyAzimuth = -25, keyElevation = 50; ///< degrees, as the camera's
-    double keyStrength = 2.9;               ///< radiance times pi of the key light
+    double keyStrength = 2.9;                   ///< radiance times pi of the key light
     bool castsShadows = true;
     const Environment* environment = nullptr;
 };
 
 struct Material {
-    vec3 albedo{0.52f, 0.50f, 0.47f};       ///< linear; multiplies the albedo map where there is one
-    float roughness = 0.4f; 
+    vec3 albedo{0.52f, 0.50f, 0.47f}; ///< linear; multiplies the albedo map where there is one
+    float roughness = 0.4f;
 };
 
 // --- pictures -----------------------------------------------------------------------------------------------------
 
-enum class Path { tessellation, grid };     ///< ways to make the triangles; dense meshes have their own
+enum class Path { tessellation, grid }; ///< ways to make the triangles; dense meshes have their own
 enum class Show { shaded, normal, height, rate, faces, wireframe };
 enum class NormalKind { limit, firstOrder, full };
 
 struct RenderOptions {
     Path path = Path::tessellation;
-    std::optional<int> rate;                ///< segments a cage edge, the same for all ...
-    double edgePixels = 2;                  ///< ... or as many as make segments this long on screen
+    std::optional<int> rate; ///< segments a cage edge, the same for all ...
+    double edgePixels = 2;   ///< ... or as many as make segments this long on screen
     NormalKind normal = NormalKind::full;
     Show show = Show::shaded;
     Camera camera;
     Lighting lighting;
     Material material;
-    Bounds bounds;                          ///< of the object: what the shadow map covers
+    Bounds bounds; ///< of the object: what the shadow map covers
     /// Tessellation: vertices that one draw may make; default what suits the device.
     std::optional<std::uint32_t> tessellatedVerticesPerDraw;
 };
 
 struct FrameStats {
     std::uint64_t triangleCount = 0, faceCount = 0;
-    std::uint64_t vertexCount = 0;          ///< distinct samples of the surface: what a dense mesh would store
+    std::uint64_t vertexCount = 0; ///< distinct samples of the surface: what a dense mesh would store
     std::uint32_t drawCount = 0, maxRate = 0;
     double rateMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0; ///< on the device; 0 where it cannot time
-    double wallMs = 0;                      ///< rates to pixels on the host
+    double wallMs = 0;                                         ///< rates to pixels on the host
 };
 
 /// Linear light, premultiplied alpha; for Show other than shaded, colors to be seen as they are.
 struct Picture {
-    Image image;                            ///< 4 channels
+    Image image; ///< 4 channels
     bool isDisplayReferred = false;
     FrameStats stats;
 };
@@ -178,7 +179,7 @@ struct RendererDesc {
 
 /// Faces drawn together, and the calls that draw them.
 struct DrawBatch {
-    std::uint32_t rate = 0;                 ///< grid: segments a side of every face in it
+    std::uint32_t rate = 0;                     ///< grid: segments a side of every face in it
     std::uint32_t firstFace = 0, faceCount = 0; ///< into DrawPlan::faces
 };
 
@@ -214,7 +215,7 @@ private:
 enum class Background { studio, transparent, color };
 struct Finish {
     Background background = Background::studio;
-    vec3 color{1};                          ///< sRGB 0..1
+    vec3 color{1}; ///< sRGB 0..1
 };
 
 /// Writes .png (tone-mapped, sRGB, 8 bit) or .exr (linear half with alpha, no background), whole or not at all.
@@ -223,9 +224,9 @@ void writePicture(const std::string& path, const Picture& picture, const Finish&
 // --- single points ------------------------------------------------------------------------------------------------
 
 struct SampleOptions {
-    std::size_t firstRow = 0;               ///< number of the first query, for messages
+    std::size_t firstRow = 0; ///< number of the first query, for messages
     NormalKind normal = NormalKind::full;
-    bool isGenericBasis = false;            ///< OpenSubdiv's own basis for all patches: slower, the check of the others
+    bool isGenericBasis = false; ///< OpenSubdiv's own basis for all patches: slower, the check of the others
 };
 
 /// The device's own frames at single points. Shaders are compiled once for a kind of model.
@@ -234,7 +235,8 @@ public:
     explicit SurfaceSampler(Device& device);
 
     /// Throws Failure::input for a face out of range, a hole, or (u,v) outside its face.
-    std::vector<SampleResult> sample(const Model& model, std::span<const SampleQuery> queries, const SampleOptions& options = {});
+    std::vector<SampleResult> sample(const Model& model, std::span<const SampleQuery> queries,
+                                     const SampleOptions& options = {});
 
 private:
     const Pipeline& pipelineOf(const Model& model, const SampleOptions& options);

@@ -14,7 +14,9 @@ struct AlbedoMips {
 };
 
 double linearOf(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
-double srgbOf(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055; }
+double srgbOf(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
 
 std::uint8_t byteOf(double value) { return std::uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0))); }
 
@@ -44,7 +46,8 @@ AlbedoMips albedoMips(const Image& image) {
                 for (std::size_t c = 0; c < 4; ++c) {
                     double sum = 0;
                     for (std::size_t k = 0; k < 4; ++k) {
-                        const std::size_t sx = std::min(2 * x + k % 2, width - 1), sy = std::min(2 * y + k / 2, height - 1);
+                        const std::size_t sx = std::min(2 * x + k % 2, width - 1),
+                                          sy = std::min(2 * y + k / 2, height - 1);
                         sum += tables.linear[mips.bytes[from + (sy * width + sx) * 4 + c]];
                     }
                     mips.bytes.push_back(tables.srgb[std::size_t(sum / 4 * 4095 + 0.5)]);
@@ -74,8 +77,10 @@ Texture emptyTexture(Device& device, VkFormat format) {
 
 Model::Model(Device& device, const ModelDesc& desc) {
     const std::uint64_t before = device.allocatedBytes();
-    if (desc.dense != nullptr) uploadDense(device, *desc.dense);
-    else uploadSurface(device, desc);
+    if (desc.dense != nullptr)
+        uploadDense(device, *desc.dense);
+    else
+        uploadSurface(device, desc);
     uploadMaps(device, desc);
     byteCount_ = device.allocatedBytes() - before;
 }
@@ -88,7 +93,8 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     firstEdge_ = appendRecords<Edge, kEdgeTexels>(records, s.edges);
     firstCorner_ = appendRecords<Corner, kCornerTexels>(records, s.corners);
     firstTouch_ = appendRecords<Touch, kTouchTexels>(records, s.touches);
-    records_ = uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records)));
+    records_ =
+        uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records)));
 
     std::vector<std::uint32_t> words = s.tree;
     firstPatchPoint_ = std::uint32_t(words.size());
@@ -100,7 +106,8 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     std::vector<vec4> points;
     for (const vec3& p : refinePoints(s, desc.cagePositions)) points.emplace_back(p, 1.0f);
     points_ = uploadTexels(device, {.name = "points"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(points)));
-    texPoints_ = uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT, std::as_bytes(std::span(s.texPoints)));
+    texPoints_ = uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT,
+                              std::as_bytes(std::span(s.texPoints)));
     mesh_ = uploadTexels(device, {.name = "no mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
     faces_ = s.faces;
     cornerCount_ = s.corners.size();
@@ -111,7 +118,8 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     // The sides of an n-gon's corner quads that meet at its centre are as long as the half edges around it.
     for (const Face& face : s.faces) {
         const std::uint32_t first = face.sides[0];
-        if (sideCount_ == 4 && (first & kSideSplit) == 0 && s.edges[first & kSideEdgeMask].partner != (first & kSideEdgeMask))
+        if (sideCount_ == 4 && (first & kSideSplit) == 0 &&
+            s.edges[first & kSideEdgeMask].partner != (first & kSideEdgeMask))
             edgeIsHalf_[face.sides[1] & kSideEdgeMask] = edgeIsHalf_[face.sides[2] & kSideEdgeMask] = true;
     }
 }
@@ -138,8 +146,11 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
 void Model::uploadMaps(Device& device, const ModelDesc& desc) {
     if (desc.height != nullptr) {
         const HeightMap& map = *desc.height;
-        heightMap_ = uploadTexture(device, {.name = "height map", .width = std::uint32_t(map.width),
-                                            .height = std::uint32_t(map.height), .format = VK_FORMAT_R32_SFLOAT},
+        heightMap_ = uploadTexture(device,
+                                   {.name = "height map",
+                                    .width = std::uint32_t(map.width),
+                                    .height = std::uint32_t(map.height),
+                                    .format = VK_FORMAT_R32_SFLOAT},
                                    std::as_bytes(std::span(map.texels)), 4);
         mapSize_ = {map.width, map.height};
         heightMid_ = float(map.mid), heightScale_ = float(map.scale), heightReach_ = float(map.reach());
@@ -149,9 +160,12 @@ void Model::uploadMaps(Device& device, const ModelDesc& desc) {
     }
     if (desc.albedo != nullptr) {
         const AlbedoMips mips = albedoMips(*desc.albedo);
-        albedoMap_ = uploadTexture(device, {.name = "albedo map", .width = std::uint32_t(desc.albedo->width),
-                                            .height = std::uint32_t(desc.albedo->height), .mipCount = mips.levels,
-                                            .format = VK_FORMAT_R8G8B8A8_SRGB},
+        albedoMap_ = uploadTexture(device,
+                                   {.name = "albedo map",
+                                    .width = std::uint32_t(desc.albedo->width),
+                                    .height = std::uint32_t(desc.albedo->height),
+                                    .mipCount = mips.levels,
+                                    .format = VK_FORMAT_R8G8B8A8_SRGB},
                                    std::as_bytes(std::span(mips.bytes)), 4);
         hasAlbedo_ = true;
     } else {

@@ -38,4 +38,27 @@ TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const
 Buffer makeSceneBuffer(Device& device);
 void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene);
 
+/// Right-handed view, Y down in clip space, depth 1 at the near and 0 at the far distance.
+mat4 perspectiveMatrix(const Camera& camera, double aspect);
+
+/// Parallel projection along the key light, holding the whole object; nearer to the light is larger.
+mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
+
+/// Two triangles a cell (one in the last of a triangle's row) over a grid of n segments a side.
+std::vector<std::uint32_t> gridIndices(std::uint32_t n, bool isTriangles);
+
+constexpr VkFormat kPictureFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16_SFLOAT;
+constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
+constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+/// The images of a picture in the making.
+struct Targets {
+    Texture normals, colors, depths; ///< four samples a pixel, what surface.frag writes
+    Texture shadow, picture;
+    Buffer readback;
+};
+
+Targets makeTargets(Device& device, const RendererDesc& desc);
+
 } // namespace relief

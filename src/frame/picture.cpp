@@ -46,7 +46,8 @@ Image displayed(const Picture& picture, const Finish& finish) {
                                         : studioBackground((x + 0.5) / to.width, (y + 0.5) / to.height, aspect);
                 color = glm::mix(behind, color, alpha);
                 // Gradients of 8 bits show their steps; a little ordered noise hides them.
-                const auto noise = float(std::fmod(52.9829189 * std::fmod(0.06711056 * x + 0.00583715 * y, 1.0), 1.0) - 0.5);
+                const auto noise =
+                    float(std::fmod(52.9829189 * std::fmod(0.06711056 * x + 0.00583715 * y, 1.0), 1.0) - 0.5);
                 if (alpha == 0 && finish.background == Background::studio) color += noise / 255.0f;
             } else {
                 out[3] = alpha;
@@ -59,9 +60,12 @@ Image displayed(const Picture& picture, const Finish& finish) {
 } // namespace
 
 void writePicture(const std::string& path, const Picture& picture, const Finish& finish) {
-    if (path.ends_with(".exr")) writeImage(path, picture.image, SampleType::half);
-    else if (path.ends_with(".png")) writeImage(path, displayed(picture, finish), SampleType::uint8);
-    else fail(Failure::usage, "{}: pictures are written as .png or .exr", path);
+    if (path.ends_with(".exr"))
+        writeImage(path, picture.image, SampleType::half);
+    else if (path.ends_with(".png"))
+        writeImage(path, displayed(picture, finish), SampleType::uint8);
+    else
+        fail(Failure::usage, "{}: pictures are written as .png or .exr", path);
 }
 
 } // namespace relief

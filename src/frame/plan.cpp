@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "frame/frame.h"
+#include "frame/passes.h"
 
 namespace relief {
 namespace {
@@ -24,8 +24,11 @@ SideRates sideRates(const Model& model, const Face& face, std::span<const std::u
 /// The tessellator's concentric triangles, all sides with n segments.
 std::uint64_t evenTriangle(std::uint64_t n) { return n % 2 == 0 ? 3 * n * n / 2 : (3 * n * n - 1) / 2; }
 
-/// Vertices inside a tessellated triangle with n segments a side: the ring of the triangle two segments smaller, and so on.
-std::uint64_t insideTriangle(std::uint64_t n) { return n < 3 ? n - 1 : 3 * (n - 2) + (n == 3 ? 0 : insideTriangle(n - 2)); }
+/// Vertices inside a tessellated triangle with n segments a side: the ring of the triangle two segments smaller, and so
+/// on.
+std::uint64_t insideTriangle(std::uint64_t n) {
+    return n < 3 ? n - 1 : 3 * (n - 2) + (n == 3 ? 0 : insideTriangle(n - 2));
+}
 
 /// Corners and samples along edges, each once whatever faces share them.
 std::uint64_t sharedVertices(const Model& model, std::span<const std::uint32_t> edgeRates) {
@@ -43,7 +46,8 @@ std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
         const std::uint64_t n = std::max({r[0], r[1], r[2]});
         return sum + 3 * (n - 2) + evenTriangle(n - 2);
     }
-    // An outer ring that joins each side to an inner grid two segments smaller. An inner level of 1 beside others counts 2.
+    // An outer ring that joins each side to an inner grid two segments smaller. An inner level of 1 beside others
+    // counts 2.
     const std::uint64_t m = std::max({r[0], r[2], 2u}), n = std::max({r[1], r[3], 2u});
     return sum + 2 * (m - 2) + 2 * (n - 2) + 2 * (m - 2) * (n - 2);
 }
@@ -67,8 +71,9 @@ DrawPlan planPatches(const Model& model, std::span<const std::uint32_t> edgeRate
         plan.triangleCount += tessellatedTriangles({sides.rates, std::size_t(model.sideCount())});
         const std::uint64_t m = std::max(sides.rates[0], sides.rates[2]), n = std::max(sides.rates[1], sides.rates[3]);
         plan.vertexCount += model.isTriangles() ? insideTriangle(sides.largest)
-                            : sides.largest == 1 ? 0
-                                                 : (std::max<std::uint64_t>(m, 2) - 1) * (std::max<std::uint64_t>(n, 2) - 1);
+                            : sides.largest == 1
+                                ? 0
+                                : (std::max<std::uint64_t>(m, 2) - 1) * (std::max<std::uint64_t>(n, 2) - 1);
         plan.maxRate = std::max(plan.maxRate, sides.largest);
     }
     return plan;
@@ -77,7 +82,8 @@ DrawPlan planPatches(const Model& model, std::span<const std::uint32_t> edgeRate
 DrawPlan planGrids(const Model& model, std::span<const std::uint32_t> edgeRates) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> groups;
     for (std::uint32_t f = 0; f < model.faces().size(); ++f)
-        if (model.faces()[f].root != kNoPatch) groups[sideRates(model, model.faces()[f], edgeRates).largest].push_back(f);
+        if (model.faces()[f].root != kNoPatch)
+            groups[sideRates(model, model.faces()[f], edgeRates).largest].push_back(f);
     DrawPlan plan;
     plan.vertexCount = sharedVertices(model, edgeRates);
     for (const auto& [rate, faces] : groups) {
@@ -90,6 +96,19 @@ DrawPlan planGrids(const Model& model, std::span<const std::uint32_t> edgeRates)
         plan.maxRate = std::max(plan.maxRate, rate);
     }
     return plan;
+}
+
+std::vector<std::uint32_t> gridIndices(std::uint32_t n, bool isTriangles) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(std::size_t(n) * n * 6);
+    const auto at = [n](std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
+    for (std::uint32_t j = 0; j < n; ++j)
+        for (std::uint32_t i = 0; i < (isTriangles ? n - j : n); ++i) {
+            indices.insert(indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
+            if (!isTriangles || i + j + 2 <= n)
+                indices.insert(indices.end(), {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+        }
+    return indices;
 }
 
 } // namespace relief

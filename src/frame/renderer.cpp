@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstring>
 
+#include <glm/gtc/packing.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "frame/passes.h"
@@ -10,98 +10,16 @@
 namespace relief {
 namespace {
 
-constexpr VkFormat kPictureFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16_SFLOAT;
-constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr std::uint32_t kGridRateLimit = 1024;
 
 double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-struct Targets {
-    Texture normals, colors, depths; ///< four samples a pixel, what surface.frag writes
-    Texture shadow, picture;
-    Buffer readback;
-};
-
-Targets makeTargets(Device& device, const RendererDesc& desc) {
-    const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
-    const auto shadowSide = std::uint32_t(desc.shadowSide);
-    const auto samples = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
-        return makeTexture(device, {.name = name, .width = width, .height = height, .format = format,
-                                    .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT, .samples = VK_SAMPLE_COUNT_4_BIT});
-    };
-    Targets t;
-    t.normals = samples("normals", kNormalFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
-    t.colors = samples("colors", kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
-    t.depths = samples("depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    t.picture = makeTexture(device, {.name = "picture", .width = width, .height = height, .format = kPictureFormat,
-                                     .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-    t.shadow = makeTexture(device, {.name = "shadow", .width = shadowSide, .height = shadowSide, .format = kDepthFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
-    t.readback = makeBuffer(device, {.name = "picture", .bytes = std::uint64_t(width) * height * 8,
-                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT, .memory = MemoryUse::readback});
-    return t;
-}
-
-float floatOfHalf(std::uint16_t half) {
-    const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16, exponent = half >> 10 & 31u, mantissa = half & 1023u;
-    if (exponent == 0) return std::ldexp(float(mantissa), -24) * (sign != 0 ? -1.0f : 1.0f);
-    const std::uint32_t bits = sign | (exponent == 31 ? 0x7f800000u : (exponent + 112) << 23) | mantissa << 13;
-    float value = 0;
-    std::memcpy(&value, &bits, 4);
-    return value;
-}
-
-/// Right-handed view, Y down in clip space, depth 1 at the near and 0 at the far distance.
-mat4 perspectiveMatrix(const Camera& camera, double aspect) {
-    const dvec3 back = glm::normalize(camera.eye - camera.target);
-    const dvec3 helper = std::abs(back.y) > 0.9999 ? dvec3(0, 0, back.y > 0 ? -1 : 1) : dvec3(0, 1, 0);
-    const dvec3 right = glm::normalize(glm::cross(helper, back)), up = glm::cross(back, right);
-    const double f = 1 / std::tan(glm::radians(camera.fieldOfView) / 2);
-    const double n = camera.nearDistance, k = n / (camera.farDistance - n);
-    const dvec3 rows[4] = {right * (f / aspect), up * -f, back * k, -back};
-    const double offsets[4] = {0, 0, n * (k + 1), 0};
-    mat4 m;
-    for (int r = 0; r < 4; ++r) {
-        for (int c = 0; c < 3; ++c) m[c][r] = float(rows[r][c]);
-        m[3][r] = float(offsets[r] - glm::dot(rows[r], camera.eye));
-    }
-    return m;
-}
-
-/// Parallel projection along the key light, holding the whole object; nearer to the light is larger.
-mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds) {
-    const dvec3 helper = std::abs(towardsLight.y) > 0.99 ? dvec3(1, 0, 0) : dvec3(0, 1, 0);
-    const dvec3 right = glm::normalize(glm::cross(helper, towardsLight)), up = glm::cross(towardsLight, right);
-    const double radius = std::max(0.52 * bounds.diagonal(), 1e-9);
-    const dvec3 rows[3] = {right / radius, up / radius, towardsLight * (0.5 / radius)};
-    mat4 m(1);
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) m[c][r] = float(rows[r][c]);
-        m[3][r] = float((r == 2 ? 0.5 : 0.0) - glm::dot(rows[r], bounds.center()));
-    }
-    return m;
-}
-
 std::uint32_t showConstant(Show show) {
-    constexpr std::uint32_t kConstants[] = {kShowShaded, kShowNormal, kShowHeight, kShowRate, kShowFaces, kShowWireframe};
+    constexpr std::uint32_t kConstants[] = {kShowShaded, kShowNormal, kShowHeight,
+                                            kShowRate,   kShowFaces,  kShowWireframe};
     return kConstants[int(show)];
-}
-
-/// Two triangles a cell (one in the last of a triangle's row) over a grid of n segments a side.
-std::vector<std::uint32_t> gridIndices(std::uint32_t n, bool isTriangles) {
-    std::vector<std::uint32_t> indices;
-    indices.reserve(std::size_t(n) * n * 6);
-    const auto at = [n](std::uint32_t i, std::uint32_t j) { return j * (n + 1) + i; };
-    for (std::uint32_t j = 0; j < n; ++j)
-        for (std::uint32_t i = 0; i < (isTriangles ? n - j : n); ++i) {
-            indices.insert(indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1)});
-            if (!isTriangles || i + j + 2 <= n) indices.insert(indices.end(), {at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
-        }
-    return indices;
 }
 
 VkRenderingAttachmentInfo attachment(const Texture& target) {
@@ -129,7 +47,8 @@ struct Renderer::Parts {
           clamped(makeSampler(device, {.wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                        .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
           around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-          nearest(makeSampler(device, {.filter = VK_FILTER_NEAREST, .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+          nearest(makeSampler(device, {.filter = VK_FILTER_NEAREST,
+                                       .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                        .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
           noWords(uploadWords(device, "nothing", {})), timer(device, 8) {}
 
@@ -142,7 +61,7 @@ struct Renderer::Parts {
     Timer timer;
     std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
     std::map<std::pair<std::uint32_t, bool>, Buffer> grids;   ///< index buffers by rate and shape
-    Environment studio;                                        ///< made when first needed
+    Environment studio;                                       ///< made when first needed
     const Environment* uploadedEnvironment = nullptr;
     Texture environment;
 
@@ -190,7 +109,8 @@ Renderer::~Renderer() = default;
 
 ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) const {
     ShaderConstants c{.hasTexCoords = frame.model.hasTexCoords(),
-                      .hasHeight = frame.model.hasHeight(), .normal = frame.options.normal};
+                      .hasHeight = frame.model.hasHeight(),
+                      .normal = frame.options.normal};
     // Depth and rates need positions alone, and no normal is cheaper than the limit normal.
     if (pass == Pass::rates || pass == Pass::shadow) c.normal = NormalKind::limit;
     if (pass == Pass::color) {
@@ -222,14 +142,16 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, Pass pass) cons
 const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
     const std::vector<std::uint32_t> constants = constantsOf(frame, pass).values();
     std::vector<std::uint32_t> key = constants;
-    key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.options.path), frame.model.isDense(), frame.model.isTriangles()});
+    key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.options.path), frame.model.isDense(),
+                           frame.model.isTriangles()});
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
 
     if (pass == Pass::rates || pass == Pass::light) {
         const char* file = pass == Pass::rates ? "rates.comp" : "light.comp";
         const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode(file, frame.model.isTriangles())};
-        return pipelines[key] = makeCompute(device, {.name = file, .stage = stage, .constants = constants, .layout = passLayout()});
+        return pipelines[key] =
+                   makeCompute(device, {.name = file, .stage = stage, .constants = constants, .layout = passLayout()});
     }
     const bool isPatches = !frame.model.isDense() && frame.options.path == Path::tessellation;
     GraphicsDesc graphics;
@@ -262,10 +184,12 @@ void Renderer::Parts::useEnvironment(const Lighting& lighting, Scene& sceneData)
             for (std::size_t i = 0; i < level.texels.size(); i += 3)
                 texels.insert(texels.end(), {level.texels[i], level.texels[i + 1], level.texels[i + 2], 1.0f});
         const Image& base = wanted->levels.front();
-        environment = uploadTexture(device, {.name = "environment", .width = std::uint32_t(base.width),
-                                             .height = std::uint32_t(base.height),
-                                             .mipCount = std::uint32_t(wanted->levels.size()),
-                                             .format = VK_FORMAT_R32G32B32A32_SFLOAT},
+        environment = uploadTexture(device,
+                                    {.name = "environment",
+                                     .width = std::uint32_t(base.width),
+                                     .height = std::uint32_t(base.height),
+                                     .mipCount = std::uint32_t(wanted->levels.size()),
+                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT},
                                     std::as_bytes(std::span(texels)), 16);
         uploadedEnvironment = wanted;
     }
@@ -331,8 +255,10 @@ void Renderer::Parts::makeEdgeRates(Frame& frame, FrameStats& stats) {
         rates = frame.model.uniformRates(std::uint32_t(*frame.options.rate));
         frame.edgeRates = uploadWords(device, "edge rates", rates);
     } else {
-        frame.edgeRates = makeTexels(device, {.name = "edge rates", .bytes = edgeCount * 4,
-                                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+        frame.edgeRates = makeTexels(device,
+                                     {.name = "edge rates",
+                                      .bytes = edgeCount * 4,
+                                      .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
                                      VK_FORMAT_R32_UINT);
         frame.scene.edgeRateTarget = frame.edgeRates.buffer.address;
         frame.scene.maxRate = limit;
@@ -352,7 +278,10 @@ void Renderer::Parts::makeEdgeRates(Frame& frame, FrameStats& stats) {
         downloadBytes(device, frame.edgeRates.buffer, std::as_writable_bytes(std::span(rates)));
     }
     frame.bindings[kBindEdgeRates].texels = frame.edgeRates.view.get();
-    frame.plan = isGrid ? planGrids(frame.model, rates) : planPatches(frame.model, rates, frame.options.tessellatedVerticesPerDraw.value_or(traits.tessellatedVerticesPerDraw));
+    frame.plan =
+        isGrid ? planGrids(frame.model, rates)
+               : planPatches(frame.model, rates,
+                             frame.options.tessellatedVerticesPerDraw.value_or(traits.tessellatedVerticesPerDraw));
 }
 
 void Renderer::Parts::makePlan(Frame& frame) {
@@ -367,7 +296,8 @@ void Renderer::Parts::makePlan(Frame& frame) {
 const Buffer& Renderer::Parts::gridOf(std::uint32_t rate, bool isTriangles) {
     Buffer& grid = grids[{rate, isTriangles}];
     if (grid.bytes == 0)
-        grid = uploadArray<std::uint32_t>(device, "grid", gridIndices(rate, isTriangles), VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+        grid = uploadArray<std::uint32_t>(device, "grid", gridIndices(rate, isTriangles),
+                                          VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
     return grid;
 }
 
@@ -451,14 +381,15 @@ Image Renderer::Parts::readPixels() const {
     Image image{desc.width, desc.height, 4, {}};
     image.texels.resize(std::size_t(desc.width) * std::size_t(desc.height) * 4);
     const auto* halves = static_cast<const std::uint16_t*>(targets.readback.mapped);
-    std::transform(halves, halves + image.texels.size(), image.texels.begin(), floatOfHalf);
+    std::transform(halves, halves + image.texels.size(), image.texels.begin(), glm::unpackHalf1x16);
     return image;
 }
 
 Picture Renderer::render(const Model& model, const RenderOptions& options) {
     Parts& parts = *parts_;
     if (options.show == Show::wireframe && !parts.device.traits().hasWireframe)
-        fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it", parts.device.traits().name);
+        fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it",
+             parts.device.traits().name);
     const double start = secondsNow();
     Picture picture;
     picture.isDisplayReferred = options.show != Show::shaded;

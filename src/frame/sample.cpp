@@ -6,7 +6,8 @@ namespace {
 void checkQuery(const Model& model, const SampleQuery& query, std::size_t row) {
     if (query.face >= model.faces().size())
         fail(Failure::input, "point {}: face {} is not in 0..{}", row, query.face, model.faces().size() - 1);
-    if (model.faces()[query.face].root == kNoPatch) fail(Failure::input, "point {}: face {} is a hole", row, query.face);
+    if (model.faces()[query.face].root == kNoPatch)
+        fail(Failure::input, "point {}: face {} is a hole", row, query.face);
     const vec2 uv = query.uv;
     const bool isInside = uv.x >= 0 && uv.y >= 0 && (model.isTriangles() ? uv.x + uv.y <= 1 : uv.x <= 1 && uv.y <= 1);
     if (!isInside)
@@ -20,7 +21,8 @@ PipelineLayoutDesc passLayout() {
     PipelineLayoutDesc layout{std::vector<VkDescriptorType>(kBindCount, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER),
                               sizeof(PushConstants)};
     layout.bindings[kBindScene] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
+    for (const std::uint32_t image :
+         {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
         layout.bindings[image] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     layout.bindings[kBindPicture] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     return layout;
@@ -31,7 +33,8 @@ TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const
 }
 
 Buffer makeSceneBuffer(Device& device) {
-    return makeBuffer(device, {.name = "scene", .bytes = sizeof(Scene),
+    return makeBuffer(device, {.name = "scene",
+                               .bytes = sizeof(Scene),
                                .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
 }
 
@@ -52,17 +55,22 @@ PipelineLayoutDesc sampleLayout() {
 } // namespace
 
 SurfaceSampler::SurfaceSampler(Device& device)
-    : device_(device), sampler_(makeSampler(device, {})), scene_(makeSceneBuffer(device)), none_(uploadWords(device, "nothing", {})) {}
+    : device_(device), sampler_(makeSampler(device, {})), scene_(makeSceneBuffer(device)),
+      none_(uploadWords(device, "nothing", {})) {}
 
 const Pipeline& SurfaceSampler::pipelineOf(const Model& model, const SampleOptions& options) {
-    const ShaderConstants constants{.isGenericBasis = options.isGenericBasis, .hasTexCoords = model.hasTexCoords(),
-                                    .hasHeight = model.hasHeight(), .normal = options.normal, .wantsTexCoords = true};
+    const ShaderConstants constants{.isGenericBasis = options.isGenericBasis,
+                                    .hasTexCoords = model.hasTexCoords(),
+                                    .hasHeight = model.hasHeight(),
+                                    .normal = options.normal,
+                                    .wantsTexCoords = true};
     std::vector<std::uint32_t> key = constants.values();
     key.push_back(model.isTriangles());
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
     const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("sample.comp", model.isTriangles())};
-    return pipelines_[key] = makeCompute(device_, {.name = "sample", .stage = stage, .constants = constants.values(), .layout = sampleLayout()});
+    return pipelines_[key] = makeCompute(
+               device_, {.name = "sample", .stage = stage, .constants = constants.values(), .layout = sampleLayout()});
 }
 
 std::vector<SampleResult> SurfaceSampler::sample(const Model& model, std::span<const SampleQuery> queries,
@@ -70,8 +78,10 @@ std::vector<SampleResult> SurfaceSampler::sample(const Model& model, std::span<c
     for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], options.firstRow + i);
     const Buffer in = uploadArray(device_, "queries", queries);
     std::vector<SampleResult> results(queries.size());
-    const Buffer out = makeBuffer(device_, {.name = "results", .bytes = results.size() * sizeof(SampleResult),
-                                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    const Buffer out =
+        makeBuffer(device_, {.name = "results",
+                             .bytes = results.size() * sizeof(SampleResult),
+                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     // What the shader does not read is bound all the same: Mesa 22.3's CPU driver walks every descriptor of a set.
     Scene scene{};
     Binding bindings[kBindCount];

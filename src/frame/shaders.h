@@ -7,7 +7,8 @@
 
 namespace relief {
 
-/// SPIR-V of a stage by its file's name, for faces with four sides or three. Throws Failure::internal for unknown names.
+/// SPIR-V of a stage by its file's name, for faces with four sides or three. Throws Failure::internal for unknown
+/// names.
 std::span<const std::uint32_t> shaderCode(std::string_view name, bool isTriangles = false);
 
 } // namespace relief

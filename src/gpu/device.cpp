@@ -9,7 +9,8 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-// Past this the CPU driver's tessellated draws slow down with the square of their vertices (measured: `relief_bench split`).
+// Past this the CPU driver's tessellated draws slow down with the square of their vertices (measured: `relief_bench
+// split`).
 constexpr std::uint32_t kLavapipeVerticesPerDraw = 5000;
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
@@ -97,7 +98,8 @@ DeviceTraits traitsOf(VkPhysicalDevice physical) {
     DeviceTraits traits;
     traits.name = properties.properties.deviceName;
     traits.driver = fmt::format("{} {}", driver.driverName, driver.driverInfo);
-    traits.api = fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
+    traits.api =
+        fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
     traits.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     traits.hasTessellation = features.tessellationShader == VK_TRUE;
     traits.hasWireframe = features.fillModeNonSolid == VK_TRUE;
@@ -190,8 +192,8 @@ void Device::destroy() {
         vkDestroyDevice(device_, nullptr);
     }
     if (messenger_ != VK_NULL_HANDLE) {
-        auto end = PFN_vkDestroyDebugUtilsMessengerEXT(
-            vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+        auto end =
+            PFN_vkDestroyDebugUtilsMessengerEXT(vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
         end(instance_, messenger_, nullptr);
     }
     if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
@@ -199,13 +201,14 @@ void Device::destroy() {
 
 void Device::makeInstance(bool validate) {
     if (validate && !hasLayer(kValidationLayer))
-        fail(Failure::device, "validation was asked for but {} is not installed (on Debian: apt-get install "
-                              "vulkan-validationlayers)", kValidationLayer);
+        fail(Failure::device,
+             "validation was asked for but {} is not installed (on Debian: apt-get install "
+             "vulkan-validationlayers)",
+             kValidationLayer);
     isValidating_ = validate;
     instance_ = createInstance(validate, messages_.get());
     if (!validate) return;
-    auto make =
-        PFN_vkCreateDebugUtilsMessengerEXT(vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
+    auto make = PFN_vkCreateDebugUtilsMessengerEXT(vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
     const VkDebugUtilsMessengerCreateInfoEXT info = messengerInfo(messages_.get());
     checkVulkan(make(instance_, &info, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
 }
@@ -295,10 +298,11 @@ void Device::run(const std::function<void(VkCommandBuffer)>& record) {
 
 VkDeviceMemory Device::allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags, bool hasAddress) {
     std::uint32_t type = 0;
-    while (type < memory_.memoryTypeCount && ((needs.memoryTypeBits >> type & 1) == 0 ||
-                                              (memory_.memoryTypes[type].propertyFlags & flags) != flags))
+    while (type < memory_.memoryTypeCount &&
+           ((needs.memoryTypeBits >> type & 1) == 0 || (memory_.memoryTypes[type].propertyFlags & flags) != flags))
         ++type;
-    if (type == memory_.memoryTypeCount) fail(Failure::device, "{} has no memory of the kind {:#x}", traits_.name, flags);
+    if (type == memory_.memoryTypeCount)
+        fail(Failure::device, "{} has no memory of the kind {:#x}", traits_.name, flags);
     if (allocatedBytes_ + needs.size > traits_.heapBytes)
         fail(Failure::device, "{} more do not fit beside {} on {} ({}); try a lower --rate, a smaller map or --size",
              humanBytes(needs.size), humanBytes(allocatedBytes_), traits_.name, humanBytes(traits_.heapBytes));

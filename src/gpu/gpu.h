@@ -16,8 +16,8 @@ namespace relief {
 void checkVulkan(VkResult result, const char* call);
 
 struct DeviceDesc {
-    std::string name;              ///< part of the device's name to prefer; empty: a discrete GPU before others, CPU last
-    bool validate = false;         ///< Khronos layer with synchronization validation; RELIEF_VALIDATE=1 turns it on as well
+    std::string name;      ///< part of the device's name to prefer; empty: a discrete GPU before others, CPU last
+    bool validate = false; ///< Khronos layer with synchronization validation; RELIEF_VALIDATE=1 turns it on as well
 };
 
 /// What paths and passes ask before they choose: properties, never #ifdefs.
@@ -25,15 +25,15 @@ struct DeviceTraits {
     std::string name, driver, api;
     bool isCpu = false;
     bool hasTessellation = false;
-    bool hasWireframe = false;             ///< fillModeNonSolid
+    bool hasWireframe = false; ///< fillModeNonSolid
     std::uint32_t maxTessellationLevel = 0;
     std::uint32_t maxImageSide = 0;
     std::uint32_t maxDrawIndirectCount = 1;
-    std::uint64_t heapBytes = 0;           ///< the device-local heap
+    std::uint64_t heapBytes = 0; ///< the device-local heap
     /// Tessellated vertices that one draw should not pass. Mesa's CPU driver resets every vertex id of a draw at each
     /// flush, so its time grows with the square (`relief_bench split` measures it); other devices want one large draw.
     std::uint32_t tessellatedVerticesPerDraw = 0xffffffffu;
-    float timestampNanoseconds = 0;        ///< 0 where the queue cannot time
+    float timestampNanoseconds = 0; ///< 0 where the queue cannot time
 };
 
 /// One line a device, without making it the current one.
@@ -92,7 +92,8 @@ public:
     Owned() = default;
     Owned(Handle handle, std::function<void(Handle)> destroy) : handle_(handle), destroy_(std::move(destroy)) {}
     ~Owned() { reset(); }
-    Owned(Owned&& other) noexcept : handle_(std::exchange(other.handle_, Handle{})), destroy_(std::move(other.destroy_)) {}
+    Owned(Owned&& other) noexcept
+        : handle_(std::exchange(other.handle_, Handle{})), destroy_(std::move(other.destroy_)) {}
     Owned& operator=(Owned&& other) noexcept {
         if (this != &other) {
             reset();
@@ -124,7 +125,7 @@ struct Buffer {
     Owned<VkDeviceMemory> memory;
     Owned<VkBuffer> handle;
     VkDeviceAddress address = 0;
-    void* mapped = nullptr;                ///< upload and readback buffers
+    void* mapped = nullptr; ///< upload and readback buffers
     std::uint64_t bytes = 0;
 };
 
@@ -180,7 +181,7 @@ Owned<VkSampler> makeSampler(Device& device, const SamplerDesc& desc);
 
 struct Stage {
     VkShaderStageFlagBits stage;
-    std::span<const std::uint32_t> code;   ///< SPIR-V words
+    std::span<const std::uint32_t> code; ///< SPIR-V words
 };
 
 /// What every pipeline is given: the kinds of set 0's bindings 0, 1, 2, ... and a block of push constants.
@@ -192,12 +193,12 @@ struct PipelineLayoutDesc {
 struct GraphicsDesc {
     std::string name;
     std::vector<Stage> stages;
-    std::vector<std::uint32_t> constants;  ///< specialization constants 0, 1, 2, ... of every stage
+    std::vector<std::uint32_t> constants; ///< specialization constants 0, 1, 2, ... of every stage
     PipelineLayoutDesc layout;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkPolygonMode polygonMode = VK_POLYGON_MODE_FILL;
-    bool pullsLinesForward = false;        ///< depth bias, for a wireframe over its own surface
-    std::vector<VkFormat> colorFormats;    ///< none: depth alone
+    bool pullsLinesForward = false;     ///< depth bias, for a wireframe over its own surface
+    std::vector<VkFormat> colorFormats; ///< none: depth alone
     VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
@@ -242,7 +243,8 @@ BindingSet makeBindingSet(Device& device, const Pipeline& pipeline, const Pipeli
 void bind(VkCommandBuffer commands, const Pipeline& pipeline, const BindingSet& bindings);
 void push(VkCommandBuffer commands, const Pipeline& pipeline, std::span<const std::byte> bytes);
 
-/// Everything before is done and visible to everything after. Frames here are a few passes; one barrier serves them all.
+/// Everything before is done and visible to everything after. Frames here are a few passes; one barrier serves them
+/// all.
 void barrier(VkCommandBuffer commands);
 
 /// Time stamps by name, in the order they were written.

@@ -19,7 +19,8 @@ Owned<VkDeviceMemory> allocateFor(Device& device, const VkMemoryRequirements& ne
 
 VkImageSubresourceRange allMips(const TextureDesc& desc) {
     const bool isDepth = desc.format == VK_FORMAT_D32_SFLOAT;
-    return {VkImageAspectFlags(isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0, desc.mipCount, 0, 1};
+    return {VkImageAspectFlags(isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0, desc.mipCount, 0,
+            1};
 }
 
 Owned<VkImageView> makeView(Device& device, VkImage image, const TextureDesc& desc) {
@@ -70,7 +71,8 @@ Buffer makeBuffer(Device& device, const BufferDesc& desc) {
     address.buffer = handle;
     buffer.address = vkGetBufferDeviceAddress(device.handle(), &address);
     if (desc.memory != MemoryUse::device)
-        checkVulkan(vkMapMemory(device.handle(), buffer.memory.get(), 0, VK_WHOLE_SIZE, 0, &buffer.mapped), "vkMapMemory");
+        checkVulkan(vkMapMemory(device.handle(), buffer.memory.get(), 0, VK_WHOLE_SIZE, 0, &buffer.mapped),
+                    "vkMapMemory");
     return buffer;
 }
 
@@ -79,8 +81,10 @@ Buffer uploadBytes(Device& device, const BufferDesc& desc, std::span<const std::
     target.usage |= VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     Buffer buffer = makeBuffer(device, target);
     if (data.empty()) return buffer;
-    const Buffer staging = makeBuffer(device, {.name = desc.name + " staging", .bytes = data.size(),
-                                               .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT, .memory = MemoryUse::upload});
+    const Buffer staging = makeBuffer(device, {.name = desc.name + " staging",
+                                               .bytes = data.size(),
+                                               .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                               .memory = MemoryUse::upload});
     std::memcpy(staging.mapped, data.data(), data.size());
     device.run([&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, data.size()};
@@ -121,8 +125,10 @@ TexelBuffer uploadTexels(Device& device, const BufferDesc& desc, VkFormat format
 
 void downloadBytes(Device& device, const Buffer& buffer, std::span<std::byte> data) {
     if (data.empty()) return;
-    const Buffer staging = makeBuffer(device, {.name = "download", .bytes = data.size(),
-                                               .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT, .memory = MemoryUse::readback});
+    const Buffer staging = makeBuffer(device, {.name = "download",
+                                               .bytes = data.size(),
+                                               .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                               .memory = MemoryUse::readback});
     device.run([&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, data.size()};
         barrier(commands);
@@ -164,8 +170,10 @@ Texture makeTexture(Device& device, const TextureDesc& desc) {
 Texture uploadTexture(Device& device, TextureDesc desc, std::span<const std::byte> mips, std::uint32_t texelBytes) {
     desc.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     Texture texture = makeTexture(device, desc);
-    const Buffer staging = makeBuffer(device, {.name = desc.name + " staging", .bytes = mips.size(),
-                                               .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT, .memory = MemoryUse::upload});
+    const Buffer staging = makeBuffer(device, {.name = desc.name + " staging",
+                                               .bytes = mips.size(),
+                                               .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                               .memory = MemoryUse::upload});
     std::memcpy(staging.mapped, mips.data(), mips.size());
     std::vector<VkBufferImageCopy> regions(desc.mipCount);
     std::uint64_t offset = 0;
@@ -187,8 +195,7 @@ Texture uploadTexture(Device& device, TextureDesc desc, std::span<const std::byt
 Owned<VkSampler> makeSampler(Device& device, const SamplerDesc& desc) {
     VkSamplerCreateInfo info{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.magFilter = info.minFilter = desc.filter;
-    info.mipmapMode =
-        desc.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.mipmapMode = desc.filter == VK_FILTER_LINEAR ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = desc.wrapU;
     info.addressModeV = desc.wrapV;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;

@@ -31,9 +31,8 @@ void makeLayout(Device& device, const PipelineLayoutDesc& desc, Pipeline& pipeli
     set.pBindings = bindings.data();
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
     checkVulkan(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &setLayout), "vkCreateDescriptorSetLayout");
-    pipeline.setLayout = {setLayout, [d = device.handle()](VkDescriptorSetLayout l) {
-                              vkDestroyDescriptorSetLayout(d, l, nullptr);
-                          }};
+    pipeline.setLayout = {
+        setLayout, [d = device.handle()](VkDescriptorSetLayout l) { vkDestroyDescriptorSetLayout(d, l, nullptr); }};
 
     const VkPushConstantRange range{VK_SHADER_STAGE_ALL, 0, desc.pushBytes};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
@@ -51,7 +50,8 @@ void own(Device& device, Pipeline& pipeline, VkPipeline handle, const std::strin
     device.setName(VK_OBJECT_TYPE_PIPELINE, std::uint64_t(handle), name);
 }
 
-VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module, const Constants& constants) {
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
+                                          const Constants& constants) {
     VkPipelineShaderStageCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO};
     info.stage = stage;
     info.module = module;
@@ -196,7 +196,8 @@ void bind(VkCommandBuffer commands, const Pipeline& pipeline, const BindingSet& 
 }
 
 void push(VkCommandBuffer commands, const Pipeline& pipeline, std::span<const std::byte> bytes) {
-    vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_ALL, 0, std::uint32_t(bytes.size()), bytes.data());
+    vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_ALL, 0, std::uint32_t(bytes.size()),
+                       bytes.data());
 }
 
 Timer::Timer(Device& device, std::uint32_t capacity) : device_(&device), capacity_(capacity) {

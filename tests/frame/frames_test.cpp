@@ -129,7 +129,8 @@ Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis) {
                                worst(dvec3(tex.jacobian[1], 0), vec3(r.stv, 0)) / k});
         e.h = std::max(e.h, std::abs(f.height.h - double(r.h)) / map.reach());
         // A normal is as exact as the angle and size of its tangents allow.
-        const double sine = glm::length(glm::cross(f.limit.pu, f.limit.pv)) / (glm::length(f.limit.pu) * glm::length(f.limit.pv));
+        const double sine =
+            glm::length(glm::cross(f.limit.pu, f.limit.pv)) / (glm::length(f.limit.pu) * glm::length(f.limit.pv));
         if (sine > 0.1 && glm::length(f.limit.pu) > 0.05 * side && glm::length(f.limit.pv) > 0.05 * side) {
             e.q = std::max(e.q, worst(f.q, r.q) / side);
             e.normal = std::max(e.normal, degrees(f.normal, r.n));
@@ -140,8 +141,9 @@ Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis) {
 
 class Frames : public OnDevice, public ::testing::WithParamInterface<Case> {};
 
-// DESIGN's tolerances are 5e-5 of the box for points, 5 times that for first and 25 times for second derivatives. Single
-// precision against double leaves less: a few units of rounding, magnified with the patch's depth for derivatives.
+// DESIGN's tolerances are 5e-5 of the box for points, 5 times that for first and 25 times for second derivatives.
+// Single precision against double leaves less: a few units of rounding, magnified with the patch's depth for
+// derivatives.
 TEST_P(Frames, agreeWithTheReference) {
     const HeightMap map = sineMap(64, 0.05);
     const Errors e = compare(GetParam(), map, false);
@@ -154,8 +156,9 @@ TEST_P(Frames, agreeWithTheReference) {
     EXPECT_LT(e.q, 2e-5);
     EXPECT_LT(e.normal, 0.01);
     if (std::getenv("RELIEF_PRINT") != nullptr)
-        std::cout << fmt::format("{:40} p {:.1e} first {:.1e} second {:.1e} st {:.1e} J {:.1e} h {:.1e} q {:.1e} n {:.1e}\n",
-                                 GetParam().name, e.p, e.first, e.second, e.st, e.jacobian, e.h, e.q, e.normal);
+        std::cout << fmt::format(
+            "{:40} p {:.1e} first {:.1e} second {:.1e} st {:.1e} J {:.1e} h {:.1e} q {:.1e} n {:.1e}\n",
+            GetParam().name, e.p, e.first, e.second, e.st, e.jacobian, e.h, e.q, e.normal);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllCages, Frames, ::testing::ValuesIn(cases()), [](const auto& info) {
@@ -181,8 +184,8 @@ TEST_P(FileFrames, agreeWithTheReferenceAtDefaultIsolation) {
 
 INSTANTIATE_TEST_SUITE_P(Files, FileFrames,
                          ::testing::Values("meshes/cube.obj", "meshes/torus.obj", "meshes/ball.obj", "meshes/plane.obj",
-                                           "meshes/lantern.obj", "meshes/strawberry.obj", "meshes/octopus.obj", "bigguy.obj",
-                                           "monsterfrog.obj", "car.obj"));
+                                           "meshes/lantern.obj", "meshes/strawberry.obj", "meshes/octopus.obj",
+                                           "bigguy.obj", "monsterfrog.obj", "car.obj"));
 
 class Bases : public OnDevice {};
 

@@ -35,7 +35,8 @@ TEST_F(Normals, ofAllThreeKindsEqualTheReference) {
         for (const NormalKind kind : {NormalKind::limit, NormalKind::firstOrder, NormalKind::full}) {
             const std::vector<SampleResult> results = sampler().sample(model, queries, {.normal = kind});
             for (std::size_t i = 0; i < queries.size(); ++i) {
-                const DisplacedFrame frame = displacedFrame(reference, &map, int(queries[i].face), dvec2(queries[i].uv));
+                const DisplacedFrame frame =
+                    displacedFrame(reference, &map, int(queries[i].face), dvec2(queries[i].uv));
                 if (!frame.limit.hasTangentPlane()) continue;
                 EXPECT_LT(degrees(normalOf(frame, kind), dvec3(results[i].m)), 0.02)
                     << named.name << " kind " << int(kind) << " face " << queries[i].face;
@@ -59,11 +60,13 @@ TEST_F(Normals, ofADisplacedPlaneAreThoseOfAHeightField) {
     for (const NormalKind kind : {NormalKind::firstOrder, NormalKind::full})
         sampleAll(plane, map, kind, [&](const SampleResult& r) {
             // By x = x(s,t): dh/dx follows from the texture's Jacobian and the tangents, both constant on a plane.
-            const dvec2 dh(r.gradient.x * r.stu.x + r.gradient.y * r.stu.y, r.gradient.x * r.stv.x + r.gradient.y * r.stv.y);
+            const dvec2 dh(r.gradient.x * r.stu.x + r.gradient.y * r.stu.y,
+                           r.gradient.x * r.stv.x + r.gradient.y * r.stv.y);
             const dvec3 pu(r.pu), pv(r.pv), n(r.n);
             const dvec3 expected = glm::normalize(glm::cross(pu + dh.x * n, pv + dh.y * n));
             EXPECT_LT(degrees(expected, dvec3(r.m)), 1e-3);
-            // The height and its slopes in closed form; central differences of a sine lose its third derivative's share.
+            // The height and its slopes in closed form; central differences of a sine lose its third derivative's
+            // share.
             const double k = 6.283185307179586 * 3, s = r.st.x, t = r.st.y;
             EXPECT_NEAR(r.h, 0.03 * std::sin(k * s) * std::cos(k * t), 2e-5);
             EXPECT_NEAR(r.gradient.x, 0.03 * k * std::cos(k * s) * std::cos(k * t), 1e-3);
@@ -102,7 +105,8 @@ TEST_F(Normals, ofTheFullKindAreThoseOfTheDisplacedPoints) {
         fullSum += std::pow(degrees(m, dvec3(full[i].m)), 2);
         firstSum += std::pow(degrees(m, dvec3(first[i].m)), 2);
     }
-    const double fullRms = std::sqrt(fullSum / double(queries.size())), firstRms = std::sqrt(firstSum / double(queries.size()));
+    const double fullRms = std::sqrt(fullSum / double(queries.size())),
+                 firstRms = std::sqrt(firstSum / double(queries.size()));
     RecordProperty("fullRmsDegrees", fmt::format("{}", fullRms));
     EXPECT_LT(fullRms, 0.05);
     EXPECT_GT(firstRms, 20 * fullRms);

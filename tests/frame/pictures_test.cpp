@@ -87,7 +87,8 @@ DenseMesh referenceMesh(const ReferenceSurface& surface, const HeightMap& map, i
         const auto at = [&](int i, int j) { return first + std::uint32_t(j * (rate + 1) + i); };
         for (int j = 0; j < rate; ++j)
             for (int i = 0; i < rate; ++i)
-                mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
+                mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j),
+                                                         at(i + 1, j + 1), at(i, j + 1)});
     }
     return mesh;
 }
@@ -108,7 +109,8 @@ TEST_F(Pictures, ofTheGridEqualADenseMeshOfTheReference) {
     }
 }
 
-/// Pixels that are not wholly covered and not connected to the border through others like them: background seen through.
+/// Pixels that are not wholly covered and not connected to the border through others like them: background seen
+/// through.
 int holesIn(const Image& image) {
     std::vector<char> isOpen(std::size_t(image.width) * std::size_t(image.height));
     const auto index = [&](int x, int y) { return std::size_t(y) * std::size_t(image.width) + std::size_t(x); };
@@ -121,7 +123,8 @@ int holesIn(const Image& image) {
     while (!front.empty()) {
         const ivec2 at = front.back();
         front.pop_back();
-        if (at.x < 0 || at.y < 0 || at.x >= image.width || at.y >= image.height || isOpen[index(at.x, at.y)] == 0) continue;
+        if (at.x < 0 || at.y < 0 || at.x >= image.width || at.y >= image.height || isOpen[index(at.x, at.y)] == 0)
+            continue;
         isOpen[index(at.x, at.y)] = 0;
         for (int k = 0; k < 9; ++k) front.emplace_back(at.x + k % 3 - 1, at.y + k / 3 - 1);
     }
