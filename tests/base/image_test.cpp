@@ -1,9 +1,11 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <chrono>
 #include <fstream>
 #include <memory>
 #include <random>
+#include <thread>
 
 #include <sys/resource.h>
 
@@ -297,6 +299,19 @@ TEST(Image, refusesPicturesWithoutPixels) {
     expectFailure(Failure::internal, {"0 x 2"}, [&] {
         writeImage(folder / "a.png", {.width = 0, .height = 2, .channels = 1, .texels = {}}, SampleType::uint8);
     });
+}
+
+TEST(Image, givesEqualFilesForEqualPictures) {
+    const TemporaryFolder folder;
+    const Image image{2, 2, 1, {0.0F, 0.25F, 0.5F, 1.0F}};
+    for (const char* extension : {".exr", ".png", ".tif"}) {
+        const std::string first = folder / (std::string("a") + extension), second = folder / (std::string("b") + extension);
+        const SampleType sample = extension == std::string(".exr") ? SampleType::half : SampleType::uint8;
+        writeImage(first, image, sample);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // a time stamp would have moved on
+        writeImage(second, image, sample);
+        EXPECT_EQ(readFile(first), readFile(second)) << extension;
+    }
 }
 
 TEST(Image, refusesFoldersThatCannotBeWritten) {
