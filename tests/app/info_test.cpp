@@ -1,0 +1,93 @@
+// relief info: cages, pictures, devices, as text and as JSON.
+#include "program.h"
+
+namespace relief::test {
+namespace {
+
+TEST(Info, ofACageCountsItsParts) {
+    const nlohmann::json ball = jsonOf(relief({"info", "--json", cagePath("ball")})).at(0);
+    EXPECT_EQ(ball.at("file"), cagePath("ball"));
+    EXPECT_EQ(ball.at("kind"), "cage");
+    EXPECT_EQ(ball.at("vertices"), 98);
+    EXPECT_EQ(ball.at("faces"), 96);
+    EXPECT_EQ(ball.at("quads"), 96);
+    EXPECT_EQ(ball.at("edges"), 192);
+    EXPECT_EQ(ball.at("extraordinary_vertices"), 8);
+    EXPECT_EQ(ball.at("max_valence"), 4);
+    EXPECT_EQ(ball.at("boundary_edges"), 0);
+    EXPECT_EQ(ball.at("non_manifold_edges"), 0);
+    EXPECT_GT(ball.at("seam_edges"), 0);
+    EXPECT_GT(ball.at("bounds").at("diagonal"), 3.4);
+
+    const nlohmann::json cube = jsonOf(relief({"info", "--json", cagePath("cube")})).at(0);
+    EXPECT_EQ(cube.at("creased_edges"), 12);
+    EXPECT_EQ(cube.at("bounds").at("lower"), (nlohmann::json{-1, -1, -1}));
+    const nlohmann::json lantern = jsonOf(relief({"info", "--json", cagePath("lantern")})).at(0);
+    EXPECT_EQ(lantern.at("n_gons"), 9);
+    EXPECT_EQ(lantern.at("triangles"), 16);
+    EXPECT_GT(lantern.at("boundary_edges"), 0);
+}
+
+TEST(Info, ofACageReadsAsText) {
+    const Outcome outcome = relief({"info", cagePath("ball")});
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_TRUE(outcome.out.starts_with(cagePath("ball") + "\n")) << outcome.out;
+    EXPECT_TRUE(contains(outcome.out, "\n  extraordinary vertices       8\n")) << outcome.out;
+    EXPECT_FALSE(contains(outcome.out, "boundary")) << "what is zero is left out: " << outcome.out;
+}
+
+TEST(Info, ofMapsShowsTheRangeOfEveryChannel) {
+    const TemporaryFolder folder;
+    const Image image{2, 1, 2, {-0.25f, 3, 0.5f, 1}};
+    writeImage(folder / "two.exr", image, SampleType::real);
+    writeImage(folder / "heights.png", sineImage(8, 1), SampleType::uint16);
+    const nlohmann::json list = jsonOf(relief({"info", "--json", folder / "two.exr", folder / "heights.png"}));
+    ASSERT_EQ(list.size(), 2u);
+    const nlohmann::json& two = list[0];
+    EXPECT_EQ(two.at("kind"), "picture");
+    EXPECT_EQ(two.at("format"), "openexr");
+    EXPECT_EQ(two.at("width"), 2);
+    EXPECT_EQ(two.at("height"), 1);
+    EXPECT_EQ(two.at("sample"), "float");
+    EXPECT_EQ(two.at("default_mid"), 0.0);
+    EXPECT_EQ(two.at("ranges"), (nlohmann::json{{-0.25, 0.5}, {1, 3}}));
+    EXPECT_EQ(two.at("bytes"), 16);
+    EXPECT_EQ(list[1].at("sample"), "uint16");
+    EXPECT_EQ(list[1].at("default_mid"), 0.5);
+
+    const std::string text = relief({"info", folder / "two.exr"}).out;
+    EXPECT_TRUE(contains(text, "\n  default mid                  0\n")) << text;
+    EXPECT_TRUE(contains(text, "((-0.25, 0.5), (1, 3))")) << text;
+}
+
+TEST(Info, ofDevicesNamesThoseThatRenderUses) {
+    const nlohmann::json list = jsonOf(relief({"info", "--devices", "--json"}));
+    ASSERT_FALSE(list.empty());
+    for (const nlohmann::json& device : list) {
+        EXPECT_TRUE(device.at("vulkan").get<std::string>().starts_with("1.")) << device;
+        EXPECT_GT(device.at("memory"), 0);
+        EXPECT_GE(device.at("largest_image_side"), 4096);
+        for (const char* key : {"cpu", "tessellation_shaders", "wireframe", "times_passes"})
+            EXPECT_TRUE(device.at(key).is_boolean()) << key;
+    }
+    const TemporaryFolder folder;
+    const nlohmann::json render =
+        jsonOf(relief({"render", cagePath("cube"), "-o", folder / "a.png"}, "--size 64,64 --json"));
+    const auto isUsed = [&](const nlohmann::json& device) { return device.at("device") == render.at("device"); };
+    EXPECT_TRUE(std::ranges::any_of(list, isUsed)) << list << render;
+
+    const std::string text = relief({"info", "--devices"}).out;
+    EXPECT_TRUE(text.starts_with(list[0].at("device").get<std::string>() + "\n")) << text;
+    EXPECT_TRUE(contains(text, "\n  driver ")) << text;
+}
+
+TEST(Info, printsWarningsUnlessQuiet) {
+    const TemporaryFolder folder;
+    putFile(folder / "odd.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt unknown 1/0/0 3\n");
+    EXPECT_TRUE(relief({"info", folder / "odd.obj"}).err.starts_with("warning: "));
+    EXPECT_EQ(relief({"info", folder / "odd.obj", "-q"}).err, "");
+}
+
+} // namespace
+} // namespace relief::test

@@ -1,0 +1,69 @@
+// Ctrl-C: exit code 130, and no file that was not there before.
+#include "program.h"
+
+namespace relief::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Waits until the program has said `word`, at most half a minute.
+bool waitFor(const Program& program, const std::string& word) {
+    for (int i = 0; i < 3000; ++i) {
+        if (contains(program.errorsSoFar(), word)) return true;
+        std::this_thread::sleep_for(10ms);
+    }
+    return false;
+}
+
+TEST(Interrupts, duringARenderLeaveTheOldPicture) {
+    const TemporaryFolder folder;
+    putFile(folder / "a.exr", "old");
+    // Large enough that it cannot end between the first step and the signal.
+    Program program(
+        {"render", cagePath("cube"), "--size", "4096,4096", "--progress", "always", "-o", folder / "a.exr"});
+    ASSERT_TRUE(waitFor(program, "rendering"));
+    program.signal(SIGINT);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.exitCode, 130) << outcome.err;
+    EXPECT_TRUE(outcome.err.ends_with("relief: interrupted\n")) << outcome.err;
+    EXPECT_EQ(readFile(folder / "a.exr"), "old");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+/// Begins to write, then gets the signal.
+[[noreturn]] void writeInterrupted(const std::string& path, int signal) {
+    endCleanlyOnInterrupt();
+    writeWhole(path, [&](const std::string& temporary) {
+        putFile(temporary, "half of the n");
+        kill(getpid(), signal);
+        std::this_thread::sleep_for(30s);
+    });
+    _exit(0);
+}
+
+TEST(InterruptsDeathTest, whileWritingRemoveTheTemporaryFile) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    ::signal(SIGINT, SIG_DFL); // a script's background job starts with SIGINT ignored
+    const TemporaryFolder folder;
+    EXPECT_EXIT(writeInterrupted(folder / "a.txt", SIGINT), ::testing::ExitedWithCode(130), "interrupted");
+    EXPECT_EXIT(writeInterrupted(folder / "a.txt", SIGTERM), ::testing::ExitedWithCode(143), "interrupted");
+    EXPECT_EQ(folder.fileCount(), 0u);
+}
+
+[[noreturn]] void ignoreInterrupt(const std::string& path) {
+    ::signal(SIGINT, SIG_IGN);
+    endCleanlyOnInterrupt();
+    kill(getpid(), SIGINT);
+    std::this_thread::sleep_for(100ms);
+    writeFile(path, "whole");
+    _exit(0);
+}
+
+TEST(InterruptsDeathTest, areIgnoredWhereTheyWereIgnoredBefore) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const TemporaryFolder folder;
+    EXPECT_EXIT(ignoreInterrupt(folder / "a.txt"), ::testing::ExitedWithCode(0), "");
+}
+
+} // namespace
+} // namespace relief::test
