@@ -194,6 +194,17 @@ TEST(DisplacedFrames, StayFiniteWhereTangentsOrTextureAreSingular) {
     }
 }
 
+// Without tangents that span a plane there is nothing to differentiate: the height's slope is left out.
+TEST(DisplacedFrames, KeepTheLimitNormalWhereTangentsAreParallel) {
+    const ReferenceSurface sheet(boundaryGrid(2, 2), {Scheme::catmark, 4});
+    const HeightMap map = wavyMap(0.2);
+    const DisplacedFrame frame = displacedFrame(sheet, &map, 0, {0, 0});
+    ASSERT_FALSE(frame.limit.hasTangentPlane());
+    EXPECT_LE(glm::length(frame.normal - dvec3(0, 1, 0)), 1e-9);
+    EXPECT_EQ(frame.firstOrder, frame.normal);
+    EXPECT_EQ(frame.full, frame.normal);
+}
+
 TEST(DisplacedFrames, RaiseAlongTheNormalByTheMapsHeight) {
     const ReferenceSurface surface(withFlatTexCoords(prism(5)), {});
     const HeightMap map = constantMap(0.25);

@@ -201,7 +201,9 @@ TEST(Touches, AreListedOnlyWhereTheSurfaceIsNotSmooth) {
     EXPECT_EQ(touched(withCreases(prism(4), top, 10)), (Counts{4, 4}));
     EXPECT_EQ(touched(withCreases(prism(4), top, 2.5F)), (Counts{0, 0}));
     EXPECT_EQ(touched(withCreases(prism(4), top, 2.5F), 2), (Counts{4, 4}));
+    EXPECT_EQ(touched(withCreases(prism(4), top, 10), 10), (Counts{4, 4}));
     EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 10)), (Counts{0, 1}));
+    EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 10), 10), (Counts{0, 1}));
     EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 2)), (Counts{0, 0}));
     EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 2), 1), (Counts{0, 1}));
     EXPECT_EQ(touched(withCreases(prism(5), {5, 6, 7, 8, 9}, 10)), (Counts{10, 10}));
