@@ -86,6 +86,21 @@ void checkForLoop(const Cage& cage) {
                  face, cage.faceSizes[face]);
 }
 
+// Each of the points around a face or vertex depends on all of the others there: memory grows with the square.
+constexpr std::uint32_t kMostNeighbours = 1000;
+
+void checkNeighbours(const Cage& cage) {
+    for (std::size_t face = 0; face < cage.faceCount(); ++face)
+        if (cage.faceSizes[face] > kMostNeighbours)
+            fail(Failure::input, "face {} has {} corners: at most {} can be subdivided, split it", face,
+                 cage.faceSizes[face], kMostNeighbours);
+    std::vector<std::uint32_t> faceCounts(cage.positions.size());
+    for (const std::uint32_t vertex : cage.corners)
+        if (++faceCounts[vertex] > kMostNeighbours)
+            fail(Failure::input, "vertex {} has more than {} faces: that many cannot be subdivided, split it", vertex,
+                 kMostNeighbours);
+}
+
 Far::PatchTableFactory::Options patchOptions(bool hasTexCoords, int isolation) {
     Far::PatchTableFactory::Options options(isolation);
     options.SetEndCapType(Far::PatchTableFactory::Options::ENDCAP_GREGORY_BASIS);
@@ -111,6 +126,7 @@ int leastIsolation(const Cage& cage, Scheme scheme) {
 std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme scheme) {
     if (cage.faceSizes.empty()) fail(Failure::input, "the cage has no faces");
     if (scheme == Scheme::loop) checkForLoop(cage);
+    checkNeighbours(cage);
     keepComplaints();
     Far::TopologyDescriptor::FVarChannel texChannel;
     const RefinerFactory::Options options(schemeType(scheme), schemeOptions(cage));

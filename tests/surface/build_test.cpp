@@ -28,6 +28,13 @@ TEST(BuildSurface, RefusesAnIsolationOutOfRange) {
     EXPECT_NO_THROW(buildSurface(prism(4), {Scheme::catmark, 10}));
 }
 
+// Not because it could not be done, but because memory grows with the square.
+TEST(BuildSurface, RefusesThousandsOfNeighbours) {
+    EXPECT_EQ(failureOf(test::lonePolygon(1001), {}), Failure::input);
+    EXPECT_EQ(failureOf(bipyramid(1001), {Scheme::loop, 2}), Failure::input);
+    EXPECT_NO_THROW(buildSurface(test::lonePolygon(200), {Scheme::catmark, 2}));
+}
+
 TEST(BuildSurface, RefusesACageWithoutFaces) { EXPECT_EQ(failureOf(Cage{}, {}), Failure::input); }
 
 TEST(BuildSurface, TakesDegenerateFacesWithoutAWord) {
