@@ -1,0 +1,9 @@
+// All of relief: cages -> surfaces -> height maps -> models on a device -> pictures.
+#pragma once
+
+#include "base/base.h"
+#include "cage/cage.h"
+#include "displacement/displacement.h"
+#include "frame/frame.h"
+#include "gpu/gpu.h"
+#include "surface/surface.h"
