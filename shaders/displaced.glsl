@@ -66,13 +66,13 @@ bool spansPlane(vec3 a, vec3 b) {
 }
 
 // Where p_u and p_v are parallel or vanish (coincident corners, cusps, smooth corners) they are taken a little towards
-// the face's centre by their own derivatives: never NaN.
-void mendTangents(inout LimitFrame f, vec2 uv) {
+// the face's centre, a sixteenth of the leaf patch, by their own derivatives: never NaN.
+void mendTangents(inout LimitFrame f, vec2 uv, float leafScale) {
     if (spansPlane(f.pu, f.pv)) return;
 #ifdef RELIEF_TRIANGLES
-    vec2 inwards = (vec2(1.0 / 3.0) - uv) / 16.0;
+    vec2 inwards = (vec2(1.0 / 3.0) - uv) / (16.0 * abs(leafScale));
 #else
-    vec2 inwards = (vec2(0.5) - uv) / 16.0;
+    vec2 inwards = (vec2(0.5) - uv) / (16.0 * abs(leafScale));
 #endif
     f.pu += f.puu * inwards.x + f.puv * inwards.y;
     f.pv += f.puv * inwards.x + f.pvv * inwards.y;
@@ -137,7 +137,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
             if (kind == 0u) frame = f;
             else tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
         }
-        mendTangents(frame, uv);
+        mendTangents(frame, uv, leaf.scale);
         vec3 areaNormal = cross(frame.pu, frame.pv);
         float area = length(areaNormal);
         precise vec3 n = areaNormal / area;

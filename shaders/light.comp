@@ -12,7 +12,6 @@ layout(set = 0, binding = kBindShadow) uniform sampler2D shadowMap;           //
 layout(set = 0, binding = kBindDepths) uniform sampler2DMS depthSamples;
 layout(set = 0, binding = kBindNormals) uniform sampler2DMS normalSamples;
 layout(set = 0, binding = kBindColors) uniform sampler2DMS colorSamples;
-layout(set = 0, binding = kBindPicture, rgba16f) uniform writeonly image2D picture;
 
 const float kPi = 3.14159265;
 
@@ -128,5 +127,5 @@ void main() {
         }
         sum /= float(count);
     }
-    imageStore(picture, at, sum);
+    scene.pictureTarget.at[at.y * scene.pictureSize.x + at.x] = uvec2(packHalf2x16(sum.rg), packHalf2x16(sum.ba));
 }

@@ -15,6 +15,7 @@ namespace relief {
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name { type at[]; };
 #define RELIEF_ADDRESS(type) type
 RELIEF_ARRAY(Words, uint)
+RELIEF_ARRAY(WordPairs, uvec2)
 RELIEF_ARRAY(Queries, SampleQuery)
 RELIEF_ARRAY(Results, SampleResult)
 #endif
@@ -36,8 +37,7 @@ RELIEF_CONSTANT uint kBindMesh = 11u;        // a dense mesh: positions and norm
 RELIEF_CONSTANT uint kBindDepths = 12u;      // the samples of a picture
 RELIEF_CONSTANT uint kBindNormals = 13u;
 RELIEF_CONSTANT uint kBindColors = 14u;
-RELIEF_CONSTANT uint kBindPicture = 15u;     // storage image
-RELIEF_CONSTANT uint kBindCount = 16u;
+RELIEF_CONSTANT uint kBindCount = 15u;
 
 // Texels of four words that a record takes in kBindRecords.
 RELIEF_CONSTANT uint kFaceTexels = 2u;
@@ -61,7 +61,8 @@ RELIEF_CONSTANT uint kNormalFirstOrder = 1u;
 RELIEF_CONSTANT uint kNormalFull = 2u;
 
 struct Scene {
-    // Written through addresses: rates.comp and sample.comp.
+    // Written through addresses: light.comp (four halves a pixel), rates.comp, sample.comp.
+    RELIEF_ADDRESS(WordPairs) pictureTarget;
     RELIEF_ADDRESS(Words) edgeRateTarget;
     RELIEF_ADDRESS(Queries) sampleQueries;
     RELIEF_ADDRESS(Results) sampleResults;
@@ -107,7 +108,7 @@ struct Scene {
 };
 
 #ifdef __cplusplus
-static_assert(offsetof(Scene, firstFace) == 24 && offsetof(Scene, worldToClip) == 24 + 28 + 40);
+static_assert(offsetof(Scene, firstFace) == 32 && offsetof(Scene, worldToClip) == 32 + 28 + 40);
 } // namespace relief
 #endif
 #endif

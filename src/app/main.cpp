@@ -4,6 +4,8 @@
 #include <iostream>
 #include <new>
 
+#include <malloc.h>
+
 #include "app/commands.h"
 
 namespace {
@@ -76,6 +78,7 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+    mallopt(M_MMAP_THRESHOLD, 1 << 20); // large arrays go back to the system when they are freed, at once
     try {
         endCleanlyOnInterrupt();
         return run(argc, argv);

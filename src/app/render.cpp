@@ -1,5 +1,7 @@
 #include <iostream>
 
+#include <malloc.h>
+
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
@@ -66,24 +68,31 @@ Finish finishOf(const PictureArgs& args) {
     return finish;
 }
 
-void report(const RenderArgs& args, const Loaded& loaded, const Device& device, const Model& model,
-            const FrameStats& stats) {
-    const std::uint64_t mapBytes = loaded.height ? loaded.height->byteCount() : 0;
+/// A picture and what is told of it, when everything that made it is gone.
+struct Drawn {
+    Picture picture;
+    std::string device;
+    std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
+    double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
+};
+
+void report(const RenderArgs& args, const Drawn& drawn) {
+    const FrameStats& stats = drawn.picture.stats;
     if (args.output.isJson) {
         std::cout << nlohmann::json{{"picture", args.target},
-                                    {"device", device.traits().name},
+                                    {"device", drawn.device},
                                     {"triangles", stats.triangleCount},
                                     {"faces", stats.faceCount},
                                     {"draws", stats.drawCount},
                                     {"max_rate", stats.maxRate},
-                                    {"cage_bytes", loaded.cage.byteCount()},
-                                    {"map_bytes", mapBytes},
+                                    {"cage_bytes", drawn.cageBytes},
+                                    {"map_bytes", drawn.mapBytes},
                                     {"vertices", stats.vertexCount},
                                     {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
-                                    {"device_bytes", model.byteCount()},
-                                    {"load_ms", 1e3 * loaded.loadSeconds},
-                                    {"surface_ms", 1e3 * loaded.surfaceSeconds},
-                                    {"table_ms", 1e3 * loaded.surface.tableSeconds},
+                                    {"device_bytes", drawn.deviceBytes},
+                                    {"load_ms", 1e3 * drawn.loadSeconds},
+                                    {"surface_ms", 1e3 * drawn.surfaceSeconds},
+                                    {"table_ms", 1e3 * drawn.tableSeconds},
                                     {"rate_ms", stats.rateMs},
                                     {"shadow_ms", stats.shadowMs},
                                     {"color_ms", stats.colorMs},
@@ -93,22 +102,20 @@ void report(const RenderArgs& args, const Loaded& loaded, const Device& device, 
                   << '\n';
     } else if (!args.output.isQuiet) {
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
-                                 device.traits().name);
+                                 drawn.device);
         if (args.output.isVerbose)
             std::cerr << fmt::format(
                 "load {:.0f} ms, surface {:.0f} ms (OpenSubdiv {:.0f}), rates {:.1f} ms, shadow {:.1f} ms, "
                 "color {:.1f} ms, light {:.1f} ms, {} faces in {} draws, rate up to {}, {} on the device\n",
-                1e3 * loaded.loadSeconds, 1e3 * loaded.surfaceSeconds, 1e3 * loaded.surface.tableSeconds, stats.rateMs,
+                1e3 * drawn.loadSeconds, 1e3 * drawn.surfaceSeconds, 1e3 * drawn.tableSeconds, stats.rateMs,
                 stats.shadowMs, stats.colorMs, stats.lightMs, stats.faceCount, stats.drawCount, stats.maxRate,
-                humanBytes(model.byteCount()));
+                humanBytes(drawn.deviceBytes));
     }
 }
 
-int render(const RenderArgs& args) {
-    if (!args.target.ends_with(".png") && !args.target.ends_with(".exr"))
-        fail(Failure::usage, "{}: pictures are written as .png or .exr", args.target);
-    Progress progress("rendering", 5, args.output.progress);
-    const Loaded loaded = load(args.surface, args.output);
+/// Memory goes back as soon as it is not needed: the peak is the frame itself, not everything that led to it.
+Drawn draw(const RenderArgs& args, Progress& progress) {
+    Loaded loaded = load(args.surface, args.output);
     progress.advance();
     std::optional<Image> albedo;
     if (!args.picture.albedo.empty()) albedo = readImage(args.picture.albedo);
@@ -128,14 +135,32 @@ int render(const RenderArgs& args) {
                                .height = loaded.heightMap(),
                                .dense = loaded.dense ? &*loaded.dense : nullptr,
                                .albedo = albedo ? &*albedo : nullptr});
+    Drawn drawn{.device = device.traits().name,
+                .cageBytes = loaded.cage.byteCount(),
+                .mapBytes = loaded.height ? loaded.height->byteCount() : 0,
+                .deviceBytes = model.byteCount(),
+                .loadSeconds = loaded.loadSeconds,
+                .surfaceSeconds = loaded.surfaceSeconds,
+                .tableSeconds = loaded.surface.tableSeconds};
+    loaded = {};
+    albedo.reset();
+    malloc_trim(0);
     progress.advance();
     Renderer renderer(device, {.width = args.picture.size[0], .height = args.picture.size[1]});
-    const Picture picture = renderer.render(model, options);
+    drawn.picture = renderer.render(model, options);
     progress.advance();
-    writePicture(args.target, picture, finishOf(args.picture));
-    progress.advance();
-    report(args, loaded, device, model, picture.stats);
     checkValidation(device);
+    return drawn;
+}
+
+int render(const RenderArgs& args) {
+    if (!args.target.ends_with(".png") && !args.target.ends_with(".exr"))
+        fail(Failure::usage, "{}: pictures are written as .png or .exr", args.target);
+    Progress progress("rendering", 5, args.output.progress);
+    const Drawn drawn = draw(args, progress);
+    writePicture(args.target, drawn.picture, finishOf(args.picture));
+    progress.advance();
+    report(args, drawn);
     return 0;
 }
 

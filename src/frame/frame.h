@@ -167,9 +167,12 @@ struct FrameStats {
 
 /// Linear light, premultiplied alpha; for Show other than shaded, colors to be seen as they are.
 struct Picture {
-    Image image; ///< 4 channels
+    int width = 0, height = 0;
+    std::vector<std::uint16_t> halves; ///< RGBA as IEEE half floats, from the top row
     bool isDisplayReferred = false;
     FrameStats stats;
+
+    [[nodiscard]] Image image() const; ///< the same as floats, 4 channels
 };
 
 struct RendererDesc {

@@ -47,16 +47,16 @@ mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
 /// Two triangles a cell (one in the last of a triangle's row) over a grid of n segments a side.
 std::vector<std::uint32_t> gridIndices(std::uint32_t n, bool isTriangles);
 
-constexpr VkFormat kPictureFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16_SFLOAT;
 constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM; // even steps suit a parallel projection
 
 /// The images of a picture in the making.
 struct Targets {
     Texture normals, colors, depths; ///< four samples a pixel, what surface.frag writes
-    Texture shadow, picture;
-    Buffer readback;
+    Texture shadow;
+    Buffer picture; ///< four halves a pixel, mapped
 };
 
 Targets makeTargets(Device& device, const RendererDesc& desc);

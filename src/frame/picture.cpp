@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glm/gtc/packing.hpp>
+
 #include "frame/frame.h"
 
 namespace relief {
@@ -25,7 +27,7 @@ vec3 studioBackground(double x, double y, double aspect) {
 }
 
 Image displayed(const Picture& picture, const Finish& finish) {
-    const Image& from = picture.image;
+    const Image from = picture.image();
     const bool isOpaque = finish.background != Background::transparent;
     Image to{from.width, from.height, isOpaque ? 3 : 4, {}};
     to.texels.resize(std::size_t(to.width) * to.height * to.channels);
@@ -59,9 +61,15 @@ Image displayed(const Picture& picture, const Finish& finish) {
 
 } // namespace
 
+Image Picture::image() const {
+    Image image{width, height, 4, std::vector<float>(halves.size())};
+    std::transform(halves.begin(), halves.end(), image.texels.begin(), glm::unpackHalf1x16);
+    return image;
+}
+
 void writePicture(const std::string& path, const Picture& picture, const Finish& finish) {
     if (path.ends_with(".exr"))
-        writeImage(path, picture.image, SampleType::half);
+        writeImage(path, picture.image(), SampleType::half);
     else if (path.ends_with(".png"))
         writeImage(path, displayed(picture, finish), SampleType::uint8);
     else

@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 
-#include <glm/gtc/packing.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "frame/passes.h"
@@ -92,8 +91,6 @@ struct Renderer::Parts {
     void shadowPass(VkCommandBuffer commands, const Frame& frame);
     void colorPass(VkCommandBuffer commands, const Frame& frame);
     void lightPass(VkCommandBuffer commands, const Frame& frame);
-    void copyBack(VkCommandBuffer commands);
-    [[nodiscard]] Image readPixels() const;
     [[nodiscard]] bool castsShadows(const Frame& frame) const {
         return frame.options.lighting.castsShadows && frame.options.show == Show::shaded;
     }
@@ -160,7 +157,7 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
     graphics.constants = constants;
     graphics.layout = passLayout();
     graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    graphics.depthFormat = kDepthFormat;
+    graphics.depthFormat = pass == Pass::shadow ? kShadowFormat : kDepthFormat;
     if (pass != Pass::shadow) {
         graphics.colorFormats = {kNormalFormat, kColorFormat};
         graphics.samples = VK_SAMPLE_COUNT_4_BIT;
@@ -203,6 +200,7 @@ void Renderer::Parts::describeView(Frame& frame) {
     frame.model.describe(s, frame.bindings);
     s.worldToClip = perspectiveMatrix(o.camera, double(desc.width) / desc.height);
     s.clipToWorld = mat4(glm::inverse(glm::dmat4(s.worldToClip)));
+    s.pictureTarget = targets.picture.address;
     s.pictureSize = {desc.width, desc.height};
     s.eye = vec3(o.camera.eye);
     s.nearDistance = float(o.camera.nearDistance);
@@ -229,7 +227,6 @@ void Renderer::Parts::describeView(Frame& frame) {
     frame.bindings[kBindDepths].view = targets.depths.view.get();
     frame.bindings[kBindNormals].view = targets.normals.view.get();
     frame.bindings[kBindColors].view = targets.colors.view.get();
-    frame.bindings[kBindPicture].view = targets.picture.view.get();
     for (const std::uint32_t image : {kBindShadow, kBindDepths, kBindNormals, kBindColors})
         frame.bindings[image].sampler = nearest.get();
     frame.bindings[kBindEdgeRates].texels = frame.bindings[kBindDrawFaces].texels = noWords.view.get();
@@ -368,23 +365,6 @@ void Renderer::Parts::lightPass(VkCommandBuffer commands, const Frame& frame) {
     barrier(commands);
 }
 
-void Renderer::Parts::copyBack(VkCommandBuffer commands) {
-    VkBufferImageCopy region{};
-    region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    region.imageExtent = {std::uint32_t(desc.width), std::uint32_t(desc.height), 1};
-    vkCmdCopyImageToBuffer(commands, targets.picture.handle.get(), VK_IMAGE_LAYOUT_GENERAL,
-                           targets.readback.handle.get(), 1, &region);
-    barrier(commands);
-}
-
-Image Renderer::Parts::readPixels() const {
-    Image image{desc.width, desc.height, 4, {}};
-    image.texels.resize(std::size_t(desc.width) * std::size_t(desc.height) * 4);
-    const auto* halves = static_cast<const std::uint16_t*>(targets.readback.mapped);
-    std::transform(halves, halves + image.texels.size(), image.texels.begin(), glm::unpackHalf1x16);
-    return image;
-}
-
 Picture Renderer::render(const Model& model, const RenderOptions& options) {
     Parts& parts = *parts_;
     if (options.show == Show::wireframe && !parts.device.traits().hasWireframe)
@@ -424,11 +404,13 @@ Picture Renderer::render(const Model& model, const RenderOptions& options) {
         parts.timer.stamp(commands);
         parts.lightPass(commands, frame);
         parts.timer.stamp(commands);
-        parts.copyBack(commands);
     });
     const std::vector<double> times = parts.timer.intervals();
     if (times.size() == 3) stats.shadowMs = times[0], stats.colorMs = times[1], stats.lightMs = times[2];
-    picture.image = parts.readPixels();
+    const auto* halves = static_cast<const std::uint16_t*>(parts.targets.picture.mapped);
+    picture.width = parts.desc.width;
+    picture.height = parts.desc.height;
+    picture.halves.assign(halves, halves + std::size_t(picture.width) * std::size_t(picture.height) * 4);
     stats.wallMs = 1e3 * (secondsNow() - start);
     return picture;
 }

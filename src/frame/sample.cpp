@@ -24,7 +24,6 @@ PipelineLayoutDesc passLayout() {
     for (const std::uint32_t image :
          {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
         layout.bindings[image] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    layout.bindings[kBindPicture] = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     return layout;
 }
 

@@ -17,20 +17,13 @@ Targets makeTargets(Device& device, const RendererDesc& desc) {
     t.normals = samples("normals", kNormalFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.colors = samples("colors", kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.depths = samples("depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    t.picture = makeTexture(device, {.name = "picture",
-                                     .width = width,
-                                     .height = height,
-                                     .format = kPictureFormat,
-                                     .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
     t.shadow = makeTexture(device, {.name = "shadow",
                                     .width = shadowSide,
                                     .height = shadowSide,
-                                    .format = kDepthFormat,
+                                    .format = kShadowFormat,
                                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
-    t.readback = makeBuffer(device, {.name = "picture",
-                                     .bytes = std::uint64_t(width) * height * 8,
-                                     .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                     .memory = MemoryUse::readback});
+    t.picture = makeBuffer(
+        device, {.name = "picture", .bytes = std::uint64_t(width) * height * 8, .memory = MemoryUse::readback});
     return t;
 }
 

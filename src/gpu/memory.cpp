@@ -18,7 +18,7 @@ Owned<VkDeviceMemory> allocateFor(Device& device, const VkMemoryRequirements& ne
 }
 
 VkImageSubresourceRange allMips(const TextureDesc& desc) {
-    const bool isDepth = desc.format == VK_FORMAT_D32_SFLOAT;
+    const bool isDepth = desc.format == VK_FORMAT_D32_SFLOAT || desc.format == VK_FORMAT_D16_UNORM;
     return {VkImageAspectFlags(isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0, desc.mipCount, 0,
             1};
 }

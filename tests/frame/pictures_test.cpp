@@ -31,12 +31,13 @@ struct Difference {
 
 Difference difference(const Picture& a, const Picture& b) {
     Difference sum;
-    for (std::size_t i = 0; i < a.image.texels.size(); ++i) {
-        const double d = double(a.image.texels[i]) - double(b.image.texels[i]);
+    const std::vector<float> left = a.image().texels, right = b.image().texels;
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        const double d = double(left[i]) - double(right[i]);
         EXPECT_TRUE(std::isfinite(d));
         (i % 4 == 3 ? sum.coverage : sum.color) += d * d;
     }
-    const double pixels = double(a.image.texels.size()) / 4;
+    const double pixels = double(left.size()) / 4;
     return {std::sqrt(sum.color / (3 * pixels)), std::sqrt(sum.coverage / pixels)};
 }
 
@@ -145,7 +146,7 @@ TEST_F(Pictures, haveNoHolesInsideAClosedSurface) {
             options.rate.reset();
             options.edgePixels = 3;
             options.path = path;
-            EXPECT_EQ(holesIn(renderer().render(model, options).image), 0) << azimuth;
+            EXPECT_EQ(holesIn(renderer().render(model, options).image()), 0) << azimuth;
         }
 }
 
