@@ -10,6 +10,8 @@ struct Golden {
     const char* words; ///< see SceneFolder::render
 };
 
+void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.name; }
+
 // White behind most: the studio's noise does not compress. Uniform and adaptive rates, both paths, every kind of cage.
 constexpr Golden kGoldens[] = {
     {"cube_creases_tessellation", "^cube --rate 32 --azimuth 35 --elevation 25 --background 1,1,1"},
