@@ -49,28 +49,6 @@ HeightMap bumps(int side, double amplitude) {
     return makeHeightMap(side, side, std::move(texels), 0, amplitude, Wrap::repeat);
 }
 
-/// The grid path's triangles as a static mesh with the reference evaluator's full normals.
-DenseMesh denseOf(const ReferenceSurface& surface, const HeightMap& map, int rate) {
-    DenseMesh mesh;
-    for (int face = 0; face < surface.faceCount(); ++face) {
-        const auto first = std::uint32_t(mesh.positions.size());
-        for (int j = 0; j <= rate; ++j)
-            for (int i = 0; i <= rate; ++i) {
-                const DisplacedFrame f = displacedFrame(surface, &map, face, dvec2(i, j) / double(rate));
-                mesh.positions.emplace_back(f.q);
-                mesh.normals.emplace_back(f.full);
-                mesh.texCoords.emplace_back(f.st);
-            }
-        const auto at = [&](int i, int j) { return first + std::uint32_t(j * (rate + 1) + i); };
-        for (int j = 0; j < rate; ++j)
-            for (int i = 0; i < rate; ++i)
-                for (const std::uint32_t v :
-                     {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)})
-                    mesh.indices.push_back(v);
-    }
-    return mesh;
-}
-
 /// Cage, map, surface and camera that all cases share.
 struct Subject {
     std::string path = cagePath();
@@ -130,7 +108,7 @@ int benchFrame() {
     Device device;
     const Model displaced(
         device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
-    const DenseMesh mesh = denseOf(subject.reference, subject.map, subject.rate);
+    const DenseMesh mesh = denseMesh(subject.reference, &subject.map, subject.rate);
     const Model dense(device, {.dense = &mesh});
     Renderer renderer(device, {});
     std::cout << fmt::format("frame: {} at rate {}, 1024 x 1024, 4 samples, full normals, {} on {}\n", subject.path,

@@ -53,8 +53,8 @@ void writeImage(const std::string& path, const Image& image, SampleType sample) 
     checkShape(path, image);
     OIIO::ImageSpec spec(image.width, image.height, image.channels, sampleDesc(sample));
     spec.attribute("DateTime", "2000:01:01 00:00:00"); // else the hour of writing: equal pictures must be equal files
-    spec.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours are divided by alpha on the way out
-    spec.attribute("tiff:write_exif", 0);        // it would be read back, and memory output cannot be read
+    spec.attribute("oiio:UnassociatedAlpha", 1);       // otherwise colours are divided by alpha on the way out
+    spec.attribute("tiff:write_exif", 0);              // it would be read back, and memory output cannot be read
 
     // Into memory first: the PNG writer does not notice a full disk, TIFF and EXR miss their last block.
     std::vector<unsigned char> encoded;

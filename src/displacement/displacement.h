@@ -12,9 +12,9 @@ namespace relief {
 enum class Wrap { repeat, clamp };
 
 struct HeightOptions {
-    std::optional<double> mid;     ///< stored value that means no displacement; default 0.5 integer files, 0 float files
-    std::optional<double> scale;   ///< cage units for one unit of stored height; default 1
-    int channel = 0;               ///< 0-based channel of the file
+    std::optional<double> mid;   ///< stored value that means no displacement; default 0.5 integer files, 0 float files
+    std::optional<double> scale; ///< cage units for one unit of stored height; default 1
+    int channel = 0;             ///< 0-based channel of the file
     Wrap wrap = Wrap::repeat;
     ImageLimits limits;
 };
@@ -22,7 +22,7 @@ struct HeightOptions {
 /// h(s,t) = scale * (texel - mid), bilinear between texel centres; t points up, row 0 is the top of the picture.
 struct HeightMap {
     int width = 0, height = 0;
-    std::vector<float> texels;     ///< stored values as read, width * height
+    std::vector<float> texels; ///< stored values as read, width * height
     double mid = 0, scale = 1;
     Wrap wrap = Wrap::repeat;
     float lowest = 0, highest = 0; ///< range of the stored values
@@ -40,8 +40,8 @@ HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, c
 HeightMap makeHeightMap(int width, int height, std::vector<float> texels, double mid, double scale, Wrap wrap);
 
 struct HeightSample {
-    double h = 0;            ///< cage units
-    double hs = 0, ht = 0;   ///< central differences over one texel, cage units per unit of s and t
+    double h = 0;          ///< cage units
+    double hs = 0, ht = 0; ///< central differences over one texel, cage units per unit of s and t
 };
 
 /// The lookup in double precision. DESIGN: h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569 notes).
@@ -52,10 +52,10 @@ struct DisplacedFrame {
     LimitFrame limit;
     dvec2 st{0};
     HeightSample height;
-    dvec3 normal{0};         ///< unit limit normal n
-    dvec3 q{0};              ///< p + h n
-    dvec3 firstOrder{0};     ///< unit first-order normal (Blinn 1978)
-    dvec3 full{0};           ///< unit full normal (Lee, Moreton, Hoppe 2000)
+    dvec3 normal{0};     ///< unit limit normal n
+    dvec3 q{0};          ///< p + h n
+    dvec3 firstOrder{0}; ///< unit first-order normal (Blinn 1978)
+    dvec3 full{0};       ///< unit full normal (Lee, Moreton, Hoppe 2000)
 };
 
 /// Evaluates the displaced surface at (face,u,v); without a map the height is zero.

@@ -32,6 +32,10 @@ struct DenseMesh {
 /// differ; normals that the file lacks are the area-weighted sum of the faces around a vertex.
 DenseMesh denseMesh(const Cage& cage);
 
+/// The triangles that the grid path draws at `rate` segments an edge, by the reference evaluator, with full normals;
+/// faces share no vertices. For surfaces of four-sided faces.
+DenseMesh denseMesh(const ReferenceSurface& surface, const HeightMap* map, int rate);
+
 struct ModelDesc {
     const Surface* surface = nullptr; ///< a subdivision surface with its posed cage points ...
     std::span<const vec3> cagePositions;

@@ -145,9 +145,10 @@ int rank(VkPhysicalDevice physical) {
     }
 }
 
+/// RELIEF_VALIDATE=1 or 0; without it the build decides (on in the dev preset).
 bool isAskedForByEnvironment() {
     const char* value = std::getenv("RELIEF_VALIDATE");
-    return value != nullptr && std::string_view(value) == "1";
+    return value != nullptr ? std::string_view(value) == "1" : RELIEF_VALIDATE_BY_DEFAULT != 0;
 }
 
 } // namespace

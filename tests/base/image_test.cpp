@@ -1,7 +1,7 @@
+#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <cstring>
-#include <chrono>
 #include <fstream>
 #include <memory>
 #include <random>
@@ -305,7 +305,8 @@ TEST(Image, givesEqualFilesForEqualPictures) {
     const TemporaryFolder folder;
     const Image image{2, 2, 1, {0.0F, 0.25F, 0.5F, 1.0F}};
     for (const char* extension : {".exr", ".png", ".tif"}) {
-        const std::string first = folder / (std::string("a") + extension), second = folder / (std::string("b") + extension);
+        const std::string first = folder / (std::string("a") + extension),
+                          second = folder / (std::string("b") + extension);
         const SampleType sample = extension == std::string(".exr") ? SampleType::half : SampleType::uint8;
         writeImage(first, image, sample);
         std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // a time stamp would have moved on

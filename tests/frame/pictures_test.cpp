@@ -74,32 +74,12 @@ TEST_F(Pictures, ofLoopSurfacesAgreeBetweenPaths) {
     EXPECT_LT(d.coverage, 0.015);
 }
 
-/// The grid path's triangles of the reference evaluator, with its full normals.
-DenseMesh referenceMesh(const ReferenceSurface& surface, const HeightMap& map, int rate) {
-    DenseMesh mesh;
-    for (int face = 0; face < surface.faceCount(); ++face) {
-        const auto first = std::uint32_t(mesh.positions.size());
-        for (int j = 0; j <= rate; ++j)
-            for (int i = 0; i <= rate; ++i) {
-                const DisplacedFrame f = displacedFrame(surface, &map, face, dvec2(i, j) / double(rate));
-                mesh.positions.emplace_back(f.q);
-                mesh.normals.emplace_back(f.full);
-            }
-        const auto at = [&](int i, int j) { return first + std::uint32_t(j * (rate + 1) + i); };
-        for (int j = 0; j < rate; ++j)
-            for (int i = 0; i < rate; ++i)
-                mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j),
-                                                         at(i + 1, j + 1), at(i, j + 1)});
-    }
-    return mesh;
-}
-
 TEST_F(Pictures, ofTheGridEqualADenseMeshOfTheReference) {
     const Cage cage = torusWithSeams();
     const HeightMap map = sineMap(128, 0.1);
     const Surface surface = buildSurface(cage, {.isolation = 3});
     const Model displaced(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-    const DenseMesh mesh = referenceMesh(ReferenceSurface(cage, {.isolation = 3}), map, 12);
+    const DenseMesh mesh = denseMesh(ReferenceSurface(cage, {.isolation = 3}), &map, 12);
     const Model dense(device(), {.dense = &mesh});
     for (const Show show : {Show::normal, Show::shaded}) {
         RenderOptions options = optionsFor(cage, show);
