@@ -96,10 +96,10 @@ TEST_F(Drawn, shadowsAndEnvironmentsShow) {
     Image sky{16, 8, 3, std::vector<float>(384, 0.0f)};
     for (int x = 0; x < 16; ++x) sky.at(x, 0)[2] = 30; // blue from above
     writeImage(folder_ / "sky.exr", sky, SampleType::real);
-    expectAllDifferent({{"a", draw("--light 100,5 --show shaded")},
+    expectAllDifferent({{"a", draw("--light 100,5")},
                         {"b", draw("--light 100,5 --no-shadows")},
                         {"c", draw("--environment " + folder_ / "sky.exr")}},
-                       0.1);
+                       0.05);
 }
 
 /// The display transform of pictures: exposure 0.8, Narkowicz's fit of the ACES curve, sRGB.
