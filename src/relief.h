@@ -6,4 +6,5 @@
 #include "displacement/displacement.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"
+#include "model/model.h"
 #include "surface/surface.h"

@@ -82,4 +82,24 @@ struct CageSummary {
 };
 CageSummary summarize(const Cage& cage);
 
+// --- dense meshes ---------------------------------------------------------------------------------------------------
+
+/// What a mesh costs as floats: position, normal and texture coordinates a vertex, three 32-bit indices a triangle.
+constexpr std::uint64_t denseBytes(std::uint64_t vertexCount, std::uint64_t triangleCount) {
+    return 32 * vertexCount + 12 * triangleCount;
+}
+
+/// Triangles with one normal and one texture coordinate a vertex.
+struct DenseMesh {
+    std::vector<vec3> positions, normals;
+    std::vector<vec2> texCoords;        ///< empty, or one a vertex
+    std::vector<std::uint32_t> indices; ///< three a triangle
+
+    [[nodiscard]] std::uint64_t byteCount() const;
+};
+
+/// Polygons as fans of triangles, without subdivision. Vertices repeat only where normals or texture coordinates
+/// differ; normals that the file lacks are the area-weighted sum of the faces around a vertex.
+DenseMesh denseMesh(const Cage& cage);
+
 } // namespace relief

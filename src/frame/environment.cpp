@@ -12,7 +12,7 @@ constexpr int kStudioHeight = 64;
 constexpr int kLargestHeight = 512; // of a user's environment; sharper reflections do not show on a dielectric
 constexpr int kFilteredHeight = 16; // levels of this size and below are convolved, larger ones averaged
 
-/// Direction of the centre of texel (x,y); the inverse of equirectangular() in shade.frag.
+/// Direction of the centre of texel (x,y); the inverse of equirectangular() in light.comp.
 dvec3 texelDirection(const Image& image, int x, int y) {
     const double phi = ((x + 0.5) / image.width - 0.5) * 2 * kPi, theta = (y + 0.5) / image.height * kPi;
     return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
@@ -71,7 +71,7 @@ Image convolved(const Image& source, int width, int height, double roughness) {
 }
 
 /// Ramamoorthi and Hanrahan (2001): coefficients of the real spherical harmonics to order 2, times the cosine lobe's
-/// (pi, 2 pi/3, pi/4), times the basis constants, so that shade.frag adds plain polynomials of the normal.
+/// (pi, 2 pi/3, pi/4), times the basis constants, so that light.comp adds plain polynomials of the normal.
 void project(const Image& image, vec3 irradiance[9]) {
     dvec3 sums[9] = {};
     for (int y = 0; y < image.height; ++y)

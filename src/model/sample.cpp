@@ -1,4 +1,4 @@
-#include "frame/passes.h"
+#include "model/stages.h"
 
 namespace relief {
 namespace {

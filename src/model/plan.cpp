@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "frame/passes.h"
+#include "model/stages.h"
 
 namespace relief {
 namespace {

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "frame/frame.h"
+#include "model/model.h"
 
 namespace relief {
 namespace {
