@@ -76,7 +76,7 @@ struct Series {
     const char* name;
     const Model* model;
     Path path;
-    std::vector<double> device, wall;
+    std::vector<double> device, wall, dice;
     std::uint64_t triangles = 0;
 };
 
@@ -88,7 +88,8 @@ void measure(Renderer& renderer, const RenderOptions& base, std::vector<Series>&
             options.path = series.path;
             const Picture picture = renderer.render(*series.model, options);
             if (round == 0) continue; // compiles the shaders
-            series.device.push_back(picture.stats.colorMs);
+            series.device.push_back(picture.stats.diceMs + picture.stats.colorMs);
+            series.dice.push_back(picture.stats.diceMs);
             series.wall.push_back(picture.stats.wallMs);
             series.triangles = picture.stats.triangleCount;
         }
@@ -98,9 +99,9 @@ void print(const std::vector<Series>& all) {
     const Series& base = all.back();
     for (const Series& series : all)
         std::cout << fmt::format(
-            "{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x\n", series.name,
+            "{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x   dicing {:6.1f} ms\n", series.name,
             series.triangles, median(series.device), median(series.device) / median(base.device), median(series.wall),
-            median(series.wall) / median(base.wall));
+            median(series.wall) / median(base.wall), median(series.dice));
 }
 
 int benchFrame() {
@@ -116,6 +117,7 @@ int benchFrame() {
     std::vector<Series> all;
     if (device.traits().hasTessellation) all.push_back({"tessellation", &displaced, Path::tessellation, {}, {}});
     all.push_back({"grid", &displaced, Path::grid, {}, {}});
+    all.push_back({"dicing and its draw", &displaced, Path::dice, {}, {}});
     all.push_back({"static dense mesh", &dense, Path::grid, {}, {}});
     measure(renderer, subject.options, all);
     print(all);
