@@ -126,6 +126,34 @@ int benchFrame() {
     return 0;
 }
 
+/// Displaced vertices per second of the dicer.
+int benchDice() {
+    Subject subject;
+    Device device;
+    const Model displaced(
+        device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    const Model smooth(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions});
+    EdgeRater rater(device);
+    Dicer dicer(device);
+    const EdgeRates rates = rater.rates(displaced, subject.options, {});
+    for (const auto& [name, model, normal] :
+         {std::tuple{"full normals, heights", &displaced, NormalKind::full},
+          std::tuple{"first-order normals, heights", &displaced, NormalKind::firstOrder},
+          std::tuple{"limit normals, heights", &displaced, NormalKind::limit},
+          std::tuple{"limit normals, no heights", &smooth, NormalKind::limit}}) {
+        std::vector<double> times;
+        std::uint32_t vertices = 0;
+        for (int round = 0; round <= kRounds; ++round) {
+            const DicedMesh mesh = dicer.dice(*model, rates, {.normal = normal});
+            vertices = mesh.vertexCount;
+            if (round > 0) times.push_back(mesh.milliseconds);
+        }
+        std::cout << fmt::format("dice: {:30} {:8} vertices {:8.1f} ms (least {:.1f}), {:.2f} million a second\n", name, vertices,
+                                 median(times), *std::ranges::min_element(times), vertices / median(times) / 1e3);
+    }
+    return 0;
+}
+
 /// Tessellated vertices in one draw against time: where DeviceTraits::tessellatedVerticesPerDraw comes from.
 int benchSplit() {
     Subject subject;
@@ -216,6 +244,7 @@ int main(int argc, char** argv) {
             return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
         };
         if (runs("frame")) benchFrame();
+        if (runs("dice")) benchDice();
         if (runs("split")) benchSplit();
         if (runs("cold")) benchCold();
         return 0;
