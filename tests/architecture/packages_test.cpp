@@ -18,6 +18,8 @@ const std::map<std::string, std::string> kPackageOf = {
     {"nlohmann_json", "nlohmann-json3-dev"},
     {"tinyobjloader", "libtinyobjloader-dev"},
     {"Threads", "build-essential"},
+    {"OpenMP", "build-essential"},
+    {"embree", "libembree-dev"},
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glm/glm.hpp", "libglm-dev"},

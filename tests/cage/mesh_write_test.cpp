@@ -177,7 +177,7 @@ struct Glb {
         const auto size = rest.take<std::uint32_t>();
         EXPECT_EQ(size % 4, 0u);
         EXPECT_EQ(rest.rest.substr(0, 4), kind);
-        const std::string content(rest.rest.substr(4, size));
+        std::string content(rest.rest.substr(4, size));
         rest.rest.remove_prefix(4 + size);
         return content;
     }
@@ -341,9 +341,9 @@ TEST(WriteMesh, refusesSizesThatTheFormatCannotHold) {
     EXPECT_NO_THROW(checkMeshSize("a.glb", 0, (k32 - 5000) / 12, true));
     EXPECT_NO_THROW(checkMeshSize("a.glb", (k32 - 5000) / 32, 0, true));
     EXPECT_NO_THROW(checkMeshSize("a.glb", (k32 - 5000) / 24, 0, false));
-    for (const auto& [vertices, triangles] : {std::pair{k32 / 32, 0ull}, {0ull, k32 / 12}})
-        expectFailure(Failure::input, {"a.glb", "4.3 GB", ".ply"},
-                      [&] { checkMeshSize("a.glb", vertices, triangles, true); });
+    const std::vector<std::string> words = {"a.glb", "4.3 GB", ".ply"};
+    expectFailure(Failure::input, words, [&] { checkMeshSize("a.glb", k32 / 32, 0, true); });
+    expectFailure(Failure::input, words, [&] { checkMeshSize("a.glb", 0, k32 / 12, false); });
     expectFailure(Failure::usage, {"a.stl"}, [] { checkMeshSize("a.stl", 1, 1, true); });
 }
 
@@ -363,6 +363,8 @@ TEST(WriteMesh, aFullDiskIsAnErrorAndLeavesTheOldMesh) {
         for (const rlim_t bytes : {0, 1000, 1'500'000}) {
             const FullDisk disk(bytes);
             expectFailure(Failure::file, {folder / name}, [&] { writeMesh(folder / name, mesh); });
+            if (bytes > 0) continue; // so few bytes that the error shows when the file is closed
+            expectFailure(Failure::file, {folder / name}, [&] { writeMesh(folder / name, square()); });
         }
         EXPECT_EQ(readFile(folder / name), old);
     }
