@@ -1,35 +1,31 @@
 // relief_bench: the same displaced triangles drawn by each path and as a static dense mesh, in one run; what splitting
-// draws is worth on this device; what a cold start costs. Absolute times are noise between runs: quote the ratios.
+// draws is worth on this device; what a cold start costs; what other evaluators take on the processor. Absolute times
+// are noise between runs: quote the ratios.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <thread>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "frame/frame.h"
+#include "timing.h"
+#ifdef RELIEF_EVALUATORS
+#include "evaluators.h"
+#endif
 
 namespace {
 
 using namespace relief;
+using bench::median;
+using bench::millisecondsOf;
 
 constexpr int kRounds = 7;
 constexpr std::uint64_t kTriangles = 1'000'000;
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
-double millisecondsOf(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The production cage where it is at hand (RELIEF_DATA), else the project's own torus.
 std::string cagePath() {
@@ -235,6 +231,25 @@ int benchCold() {
     return 0;
 }
 
+/// Limit points with both first derivatives a second: the CPU evaluators of others.
+int benchEvaluators() {
+#ifdef RELIEF_EVALUATORS
+    constexpr int kRate = 16, kIsolation = 3;
+    const std::string path = cagePath();
+    const Cage cage = readCage(path);
+    const std::vector<bench::PatchPoint> points = bench::gridPoints(cage, kRate);
+    std::cout << fmt::format("evaluators: {} at rate {}, isolation {}: {} points with first derivatives, {} threads\n",
+                             path, kRate, kIsolation, points.size(), std::thread::hardware_concurrency());
+    for (const bench::EvaluatorTime& time : bench::timeEvaluators(cage, kIsolation, points))
+        std::cout << fmt::format(
+            "{:28} {:8.1f} ms  {:6.2f} Mpoints/s   off by {:.1e}, slopes {:.1e}, end caps {:.1e}\n", time.name, time.ms,
+            double(points.size()) / time.ms / 1e3, time.pointError, time.slopeError, time.endCapError);
+#else
+    std::cout << "evaluators: relief_bench was built without Embree or OpenMP\n";
+#endif
+    return 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -247,6 +262,7 @@ int main(int argc, char** argv) {
         if (runs("dice")) benchDice();
         if (runs("split")) benchSplit();
         if (runs("cold")) benchCold();
+        if (runs("evaluators")) benchEvaluators();
         return 0;
     } catch (const relief::Error& error) {
         std::cerr << "relief_bench: " << error.what() << '\n';
