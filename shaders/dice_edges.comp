@@ -4,7 +4,7 @@
 #include "displaced.glsl"
 
 // The samples on corners and edges, an invocation a vertex, each evaluated at its owner.
-layout(local_size_x = kDiceGroup) in;
+layout(local_size_x_id = 7) in;
 
 // The run that holds a vertex: corners come first, each a run of one; the others by halving.
 uint runOf(uint vertex) {
@@ -19,7 +19,7 @@ uint runOf(uint vertex) {
 }
 
 void main() {
-    uint vertex = (passFirst + gl_WorkGroupID.x) * kDiceGroup + gl_LocalInvocationID.x;
+    uint vertex = (passFirst + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (vertex >= passNumber) return;
     uint index = runOf(vertex);
     VertexRun run = fetchRun(index);

@@ -5,7 +5,7 @@
 
 // The samples inside faces, a workgroup a tile. All samples of a tile lie in one leaf patch, so the control points are fetched
 // once and shared: on CPU drivers the loads that follow have constant addresses and serve all lanes at once.
-layout(local_size_x = kDiceGroup) in;
+layout(local_size_x_id = 7) in;
 
 #ifndef RELIEF_TRIANGLES
 const uint kMostPoints = 20u;
@@ -48,7 +48,7 @@ void main() {
     InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     uint n = halvesOf(tile.segments).x;
-    for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += kDiceGroup) {
+    for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
         uvec2 ij = first + uvec2(k % size.x, k / size.x);
         if (ij.x + ij.y >= n) continue;
         vec2 uv = insidePoint(tile, ij);
@@ -60,10 +60,10 @@ void main() {
 #else
 
 void loadTile(Patch patch_) {
-    uint lane = gl_LocalInvocationID.x;
-    if (lane < patchSize(patch_.type)) sharedPoints[lane] = patchPoint(patch_.firstPoint + lane);
-    if (kHasTexCoords && lane < patchSize(patch_.texType))
-        sharedTexPoints[lane] = texPatchPoint(patch_.texFirstPoint + lane);
+    for (uint i = gl_LocalInvocationID.x; i < kMostPoints; i += gl_WorkGroupSize.x) {
+        if (i < patchSize(patch_.type)) sharedPoints[i] = patchPoint(patch_.firstPoint + i);
+        if (kHasTexCoords && i < patchSize(patch_.texType)) sharedTexPoints[i] = texPatchPoint(patch_.texFirstPoint + i);
+    }
     barrier();
     // Here, outside all branches, where a load with a constant address is one load for all lanes.
     [[unroll]] for (uint i = 0u; i < kMostPoints; ++i) ownPoints[i] = sharedPoints[i];
@@ -80,7 +80,7 @@ void main() {
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     float scale = float(1u << tile.depth);
     vec2 origin = vec2(halvesOf(tile.origin));
-    for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += kDiceGroup) {
+    for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
         uvec2 ij = first + uvec2(k % size.x, k / size.x);
         vec2 uv = insidePoint(tile, ij);
         DisplacedSample s = displacedInLeaf(patch_, Leaf(tile.patchIndex, scale * uv - origin, scale), uv);

@@ -9,7 +9,7 @@
 //   inner samples     +---+---+---+         a segment of the edge takes the inner sample after as many inner segments
 //                    / \ / \ /|  \          as have their middles before its own, and an inner segment likewise:
 //   the edge        +---+----+----+         the two orders merge, and every triangle is known without the others
-layout(local_size_x = kDiceGroup) in;
+layout(local_size_x_id = 7) in;
 
 // Vertex of sample k of a side with r segments, in the side's direction.
 uint sideVertex(FaceRuns runs, uint side, uint entry, uint k, uint r) {
@@ -125,7 +125,7 @@ void main() {
     for (uint side = 0u; side < kSideCount; ++side) count += innerSegments(side, n);
     if (largest == 1u) count = kSideCount - 2u;
 
-    for (uint k = gl_LocalInvocationID.x; k < kTrianglesPerTile && tile.firstInFace + k < count; k += kDiceGroup) {
+    for (uint k = gl_LocalInvocationID.x; k < kTrianglesPerTile && tile.firstInFace + k < count; k += gl_WorkGroupSize.x) {
         uint t = tile.firstInFace + k, triangle = tile.firstTriangle + k;
         if (largest == 1u) {
             storeTriangle(triangle, runs.corners[0], runs.corners[t + 1u], runs.corners[t + 2u]);

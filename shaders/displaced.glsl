@@ -11,7 +11,7 @@ layout(constant_id = 2) const bool kHasHeight = false;
 layout(constant_id = 3) const uint kNormal = kNormalFull;
 layout(constant_id = 4) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
 
-layout(set = 0, binding = kBindHeight) uniform sampler2D heightMap;
+layout(set = 0, binding = kBindHeight) uniform samplerBuffer heightTexels;
 
 // --- heights --------------------------------------------------------------------------------------------------------
 
@@ -20,12 +20,18 @@ struct HeightSample {
     vec2 gradient;  // (h_s, h_t)
 };
 
-// Texels are fetched and weighed here, not by the sampler, whose fractions are 8 bits on many devices: stairs in h_s.
-float texel(ivec2 at) {
-    ivec2 size = scene.mapSize;
-    at = scene.mapRepeats != 0u ? at - size * ivec2(floor(vec2(at) / vec2(size))) : clamp(at, ivec2(0), size - 1);
-    return texelFetch(heightMap, at, 0).r;
+// The map's columns or rows first - 1 to first + 2.
+ivec4 wrapped(int first, int size) {
+    ivec4 at = first + ivec4(-1, 0, 1, 2);
+    if (scene.mapRepeats == 0u) return clamp(at, 0, size - 1);
+    // The first one falls anywhere, the others follow it.
+    int start = at.x - size * int(floor(float(at.x) / float(size)));
+    at = start + ivec4(0, 1, 2, 3);
+    return size < 4 ? at % size : at - size * ivec4(greaterThanEqual(at, ivec4(size)));
 }
+
+// Texels are fetched and weighed here, not by the sampler, whose fractions are 8 bits on many devices: stairs in h_s.
+float texel(int column, int row) { return texelFetch(heightTexels, row * scene.mapSize.x + column).r; }
 
 // h bilinear; h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569), h_t likewise: twelve texels, of
 // which the four around the point serve both. t points up, rows go down.
@@ -33,20 +39,17 @@ HeightSample sampleHeight(vec2 st) {
     precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(scene.mapSize) - 0.5;
     vec2 whole = floor(x);
     vec2 f = x - whole;
-    ivec2 at = ivec2(whole);
-    float below[4], above[4]; // rows at and at + 1, columns -1..2
-    for (int i = 0; i < 4; ++i) {
-        below[i] = texel(at + ivec2(i - 1, 0));
-        above[i] = texel(at + ivec2(i - 1, 1));
-    }
-    float outerLow0 = texel(at + ivec2(0, -1)), outerLow1 = texel(at + ivec2(1, -1));
-    float outerHigh0 = texel(at + ivec2(0, 2)), outerHigh1 = texel(at + ivec2(1, 2));
+    ivec4 columns = wrapped(int(whole.x), scene.mapSize.x), rows = wrapped(int(whole.y), scene.mapSize.y);
+    vec4 below = vec4(texel(columns.x, rows.y), texel(columns.y, rows.y), texel(columns.z, rows.y), texel(columns.w, rows.y));
+    vec4 above = vec4(texel(columns.x, rows.z), texel(columns.y, rows.z), texel(columns.z, rows.z), texel(columns.w, rows.z));
+    vec2 low = vec2(texel(columns.y, rows.x), texel(columns.z, rows.x));
+    vec2 high = vec2(texel(columns.y, rows.w), texel(columns.z, rows.w));
 
     // Rows: value at x in each of the four rows; and the difference across two texels in the middle two.
-    precise float rowLow = mix(outerLow0, outerLow1, f.x), row0 = mix(below[1], below[2], f.x);
-    precise float row1 = mix(above[1], above[2], f.x), rowHigh = mix(outerHigh0, outerHigh1, f.x);
-    precise float across0 = mix(below[2], below[3], f.x) - mix(below[0], below[1], f.x);
-    precise float across1 = mix(above[2], above[3], f.x) - mix(above[0], above[1], f.x);
+    precise float rowLow = mix(low.x, low.y, f.x), row0 = mix(below.y, below.z, f.x);
+    precise float row1 = mix(above.y, above.z, f.x), rowHigh = mix(high.x, high.y, f.x);
+    precise float across0 = mix(below.z, below.w, f.x) - mix(below.x, below.y, f.x);
+    precise float across1 = mix(above.z, above.w, f.x) - mix(above.x, above.y, f.x);
     precise float down = mix(row1, rowHigh, f.y) - mix(rowLow, row0, f.y);
 
     HeightSample s;

@@ -50,7 +50,6 @@ RELIEF_CONSTANT uint kFaceRunsTexels = 4u;
 RELIEF_CONSTANT uint kInsideTileTexels = 2u;
 RELIEF_CONSTANT uint kTriangleTileTexels = 1u;
 
-RELIEF_CONSTANT uint kDiceGroup = 64u;          // invocations of a workgroup
 RELIEF_CONSTANT uint kTrianglesPerTile = 256u;
 
 #ifdef __cplusplus

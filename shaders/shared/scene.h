@@ -25,8 +25,8 @@ RELIEF_ARRAY(Results, SampleResult)
 
 // Set 0.
 RELIEF_CONSTANT uint kBindScene = 0u;
-RELIEF_CONSTANT uint kBindHeight = 1u;       // sampled images
-RELIEF_CONSTANT uint kBindAlbedo = 2u;
+RELIEF_CONSTANT uint kBindHeight = 1u;       // texels of the height map, row after row from the top
+RELIEF_CONSTANT uint kBindAlbedo = 2u;       // sampled images
 RELIEF_CONSTANT uint kBindEnvironment = 3u;
 RELIEF_CONSTANT uint kBindShadow = 4u;
 RELIEF_CONSTANT uint kBindRecords = 5u;      // texel buffers: Face, Patch, Edge, Corner and Touch, each padded to texels

@@ -166,7 +166,7 @@ void Renderer::Parts::describeView(Frame& frame) {
 
     const VkSampler wrap = frame.model.wrap() == Wrap::repeat ? repeating.get() : clamped.get();
     frame.bindings[kBindScene].uniform = scene.handle.get();
-    frame.bindings[kBindHeight].sampler = frame.bindings[kBindAlbedo].sampler = wrap;
+    frame.bindings[kBindAlbedo].sampler = wrap;
     frame.bindings[kBindEnvironment].view = environment.view.get();
     frame.bindings[kBindEnvironment].sampler = around.get();
     frame.bindings[kBindShadow].view = targets.shadow.view.get();

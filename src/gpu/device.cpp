@@ -95,6 +95,8 @@ DeviceTraits traitsOf(VkPhysicalDevice physical) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &driver;
+    VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    driver.pNext = &subgroup;
     vkGetPhysicalDeviceProperties2(physical, &properties);
     VkPhysicalDeviceFeatures features;
     vkGetPhysicalDeviceFeatures(physical, &features);
@@ -109,6 +111,7 @@ DeviceTraits traitsOf(VkPhysicalDevice physical) {
     traits.api =
         fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
     traits.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    if (traits.isCpu) traits.smallGroup = std::max(subgroup.subgroupSize, 1u);
     traits.hasTessellation = features.tessellationShader == VK_TRUE;
     traits.hasWireframe = features.fillModeNonSolid == VK_TRUE;
     traits.maxTessellationLevel = traits.hasTessellation ? limits.maxTessellationGenerationLevel : 0;

@@ -30,6 +30,8 @@ struct DeviceTraits {
     bool hasVertexStores = false; ///< vertex stages may write to buffers
     std::uint32_t maxTessellationLevel = 0;
     std::uint32_t maxTexelBufferElements = 0;
+    /// Invocations that a workgroup should have where it works on little: a CPU driver runs the rest one after another.
+    std::uint32_t smallGroup = 64;
     std::uint32_t maxImageSide = 0;
     std::uint32_t maxDrawIndirectCount = 1;
     std::uint64_t heapBytes = 0; ///< the device-local heap

@@ -215,16 +215,18 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
+    constants.groupSize = device.traits().smallGroup;
     struct Pass {
         const char* file;
         std::uint64_t groups;
         PushConstants constants;
     };
     const std::uint32_t edgeVertices = work.runFirsts.back();
-    const Pass passes[] = {
-        {"dice_insides.comp", work.insides.size(), {}},
-        {"dice_edges.comp", (edgeVertices + kDiceGroup - 1) / kDiceGroup, {.passNumber = edgeVertices}},
-        {"dice_triangles.comp", work.triangles.size(), {.passFirst = firstTriangleTile}}};
+    const Pass passes[] = {{"dice_insides.comp", work.insides.size(), {}},
+                           {"dice_edges.comp",
+                            (edgeVertices + constants.groupSize - 1) / constants.groupSize,
+                            {.passNumber = edgeVertices}},
+                           {"dice_triangles.comp", work.triangles.size(), {.passFirst = firstTriangleTile}}};
     const BindingSet set =
         makeBindingSet(device, stages.pipeline(passes[0].file, model, constants), GeometryInputs::layout(), bindings);
     const auto start = std::chrono::steady_clock::now();
@@ -246,7 +248,8 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
         barrier(commands);
         timer.stamp(commands);
     });
-    // Mesa's CPU driver stamps both times when it rasterizes, after all dispatches: the clock of the host serves instead.
+    // Mesa's CPU driver stamps both times when it rasterizes, after all dispatches: the clock of the host serves
+    // instead.
     const std::vector<double> times = timer.intervals();
     if (device.traits().isCpu)
         mesh.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

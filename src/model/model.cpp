@@ -140,17 +140,16 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
 void Model::uploadMaps(Device& device, const ModelDesc& desc) {
     if (desc.height != nullptr) {
         const HeightMap& map = *desc.height;
-        heightMap_ = uploadTexture(device,
-                                   {.name = "height map",
-                                    .width = std::uint32_t(map.width),
-                                    .height = std::uint32_t(map.height),
-                                    .format = VK_FORMAT_R32_SFLOAT},
-                                   std::as_bytes(std::span(map.texels)), 4);
+        if (map.texels.size() > device.traits().maxTexelBufferElements)
+            fail(Failure::device, "a height map of {} x {} has more texels than {} reads ({})", map.width, map.height,
+                 device.traits().name, device.traits().maxTexelBufferElements);
+        heights_ =
+            uploadTexels(device, {.name = "height map"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(map.texels)));
         mapSize_ = {map.width, map.height};
         heightMid_ = float(map.mid), heightScale_ = float(map.scale), heightReach_ = float(map.reach());
         wrap_ = map.wrap;
     } else {
-        heightMap_ = emptyTexture(device, VK_FORMAT_R32_SFLOAT);
+        heights_ = uploadTexels(device, {.name = "no height map"}, VK_FORMAT_R32_SFLOAT, {});
     }
     if (desc.albedo != nullptr) {
         const AlbedoMips mips = albedoMips(*desc.albedo);
@@ -181,7 +180,7 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     bindings[kBindTexPoints].texels = texPoints_.view.get();
     bindings[kBindMesh].texels = mesh_.view.get();
     bindings[kBindMeshTexCoords].texels = meshTexCoords_.view.get();
-    bindings[kBindHeight].view = heightMap_.view.get();
+    bindings[kBindHeight].texels = heights_.view.get();
     bindings[kBindAlbedo].view = albedoMap_.view.get();
     scene.mapSize = mapSize_;
     scene.heightMid = heightMid_;

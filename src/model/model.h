@@ -65,9 +65,9 @@ private:
     void uploadDense(Device& device, const DenseMesh& mesh);
     void uploadMaps(Device& device, const ModelDesc& desc);
 
-    TexelBuffer records_, words_, points_, texPoints_, mesh_, meshTexCoords_;
+    TexelBuffer records_, words_, points_, texPoints_, mesh_, meshTexCoords_, heights_;
     Buffer indices_;
-    Texture heightMap_, albedoMap_;
+    Texture albedoMap_;
     std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstTouch_ = 0;
     std::uint32_t firstPatchPoint_ = 0, firstTexPatchPoint_ = 0;
     std::vector<Face> faces_;

@@ -7,7 +7,7 @@ PipelineLayoutDesc passLayout() {
                               sizeof(PushConstants)};
     layout.bindings[kBindScene] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     for (const std::uint32_t image :
-         {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
+         {kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
         layout.bindings[image] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     return layout;
 }
@@ -40,7 +40,7 @@ void GeometryInputs::fill(const Model& model, Scene& scene, std::span<Binding> b
     model.describe(scene, bindings);
     bindings[kBindScene].uniform = scene_.handle.get();
     bindings[kBindEnvironment].view = bindings[kBindShadow].view = bindings[kBindAlbedo].view;
-    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
+    for (const std::uint32_t image : {kBindAlbedo, kBindEnvironment, kBindShadow})
         bindings[image].sampler = sampler_.get();
     for (const std::uint32_t texels : {kBindEdgeRates, kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
         bindings[texels].texels = none_.view.get();

@@ -20,16 +20,18 @@ struct PushConstants {
 /// Set 0 of every pass (kBind...).
 PipelineLayoutDesc passLayout();
 
-/// Specialization constants 0..6 in the order of the shaders' constant_id.
+/// Specialization constants 0..7 in the order of the shaders' constant_id.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
     bool wantsTexCoords = false;
     std::uint32_t show = kShowShaded;
     bool hasAlbedoMap = false;
+    std::uint32_t groupSize = 64; ///< dicing: invocations of a workgroup
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
-        return {isGenericBasis, hasTexCoords, hasHeight, std::uint32_t(normal), wantsTexCoords, show, hasAlbedoMap};
+        return {isGenericBasis, hasTexCoords, hasHeight,    std::uint32_t(normal),
+                wantsTexCoords, show,         hasAlbedoMap, groupSize};
     }
 };
 
