@@ -83,7 +83,8 @@ void main() {
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
         uvec2 ij = first + uvec2(k % size.x, k / size.x);
         vec2 uv = insidePoint(tile, ij);
-        DisplacedSample s = displacedInLeaf(patch_, Leaf(tile.patchIndex, scale * uv - origin, scale), uv);
+        DisplacedSample s = displacedInLeaf(patch_, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
+                                             faceLevel(tile.face, uv));
         uint row = halvesOf(tile.segments).x - 1u;
         storeVertex(tile.firstVertex + (ij.y - 1u) * row + ij.x - 1u, s.q, s.h, s.normal, s.st,
                     kHasTexCoords && kWantsTexCoords);

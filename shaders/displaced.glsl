@@ -31,19 +31,27 @@ ivec4 wrapped(int first, int size) {
 }
 
 // Texels are fetched and weighed here, not by the sampler, whose fractions are 8 bits on many devices: stairs in h_s.
-float texel(int column, int row) { return texelFetch(heightTexels, row * scene.mapSize.x + column).r; }
+struct HeightLevel {
+    ivec2 size;
+    int first;
+};
+
+float texel(HeightLevel level, int column, int row) {
+    return texelFetch(heightTexels, level.first + row * level.size.x + column).r;
+}
 
 // h bilinear; h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569), h_t likewise: twelve texels, of
 // which the four around the point serve both. t points up, rows go down.
-HeightSample sampleHeight(vec2 st) {
-    precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(scene.mapSize) - 0.5;
+HeightSample sampleLevel(vec2 st, uint number) {
+    HeightLevel l = HeightLevel(max(scene.mapSize >> int(number), 1), int(scene.mapFirsts[number]));
+    precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(l.size) - 0.5;
     vec2 whole = floor(x);
     vec2 f = x - whole;
-    ivec4 columns = wrapped(int(whole.x), scene.mapSize.x), rows = wrapped(int(whole.y), scene.mapSize.y);
-    vec4 below = vec4(texel(columns.x, rows.y), texel(columns.y, rows.y), texel(columns.z, rows.y), texel(columns.w, rows.y));
-    vec4 above = vec4(texel(columns.x, rows.z), texel(columns.y, rows.z), texel(columns.z, rows.z), texel(columns.w, rows.z));
-    vec2 low = vec2(texel(columns.y, rows.x), texel(columns.z, rows.x));
-    vec2 high = vec2(texel(columns.y, rows.w), texel(columns.z, rows.w));
+    ivec4 c = wrapped(int(whole.x), l.size.x), r = wrapped(int(whole.y), l.size.y);
+    vec4 below = vec4(texel(l, c.x, r.y), texel(l, c.y, r.y), texel(l, c.z, r.y), texel(l, c.w, r.y));
+    vec4 above = vec4(texel(l, c.x, r.z), texel(l, c.y, r.z), texel(l, c.z, r.z), texel(l, c.w, r.z));
+    vec2 low = vec2(texel(l, c.y, r.x), texel(l, c.z, r.x));
+    vec2 high = vec2(texel(l, c.y, r.w), texel(l, c.z, r.w));
 
     // Rows: value at x in each of the four rows; and the difference across two texels in the middle two.
     precise float rowLow = mix(low.x, low.y, f.x), row0 = mix(below.y, below.z, f.x);
@@ -54,8 +62,26 @@ HeightSample sampleHeight(vec2 st) {
 
     HeightSample s;
     s.h = scene.heightScale * (mix(row0, row1, f.y) - scene.heightMid);
-    vec2 perUnit = 0.5 * scene.heightScale * vec2(scene.mapSize);
+    vec2 perUnit = 0.5 * scene.heightScale * vec2(l.size);
     s.gradient = vec2(mix(across0, across1, f.y), -down) * perUnit;
+    return s;
+}
+
+// Between two levels of the map.
+HeightSample sampleHeight(vec2 st, float level) {
+    if (!kHasMips) return sampleLevel(st, 0u);
+    float last = float(scene.mapLevels - 1u);
+    level = clamp(level, 0.0, last);
+    float lower = floor(level);
+    precise float f = level - lower;
+    HeightSample s = HeightSample(0.0, vec2(0));
+    for (uint i = 0u; i < (f > 0.0 ? 2u : 1u); ++i) {
+        precise float weight = i == 0u ? 1.0 - f : f;
+        HeightSample one = sampleLevel(st, uint(lower) + i);
+        precise float h = s.h + weight * one.h;
+        s.h = h;
+        s.gradient += weight * one.gradient;
+    }
     return s;
 }
 
@@ -151,8 +177,8 @@ void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample hei
     s.jacobian = point.tex.jacobian;
 }
 
-HeightSample heightAt(vec2 st) {
-    if (kHasHeight) return sampleHeight(st);
+HeightSample heightAt(vec2 st, float level) {
+    if (kHasHeight) return sampleHeight(st, level);
     return HeightSample(0.0, vec2(0));
 }
 
@@ -175,7 +201,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
         direction += point.n;
         if (isUsed) {
             isOwn = touch.face == face;
-            HeightSample height = heightAt(point.tex.st);
+            HeightSample height = heightAt(point.tex.st, place.level);
             if (i == 0u) {
                 s.p = point.frame.p;
                 s.h = height.h;
@@ -194,10 +220,10 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
 }
 
 // The same for a point inside a face whose leaf is known.
-DisplacedSample displacedInLeaf(Patch patch_, Leaf leaf, vec2 uv) {
+DisplacedSample displacedInLeaf(Patch patch_, Leaf leaf, vec2 uv, float level) {
     DisplacedSample s;
     SurfacePoint point = surfacePoint(patch_, leaf, uv, true);
-    HeightSample height = heightAt(point.tex.st);
+    HeightSample height = heightAt(point.tex.st, level);
     addAttributes(s, point, height);
     s.p = point.frame.p;
     s.h = height.h;

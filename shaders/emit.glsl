@@ -23,6 +23,7 @@ void emitVertex(uint face, vec2 uv, Place place, uint rate, uint slot) {
     captured = vertex;
 #else
     scene.captureTarget.at[passFirst + slot] = vertex;
+    gl_PointSize = 1.0; // captured as points
 #endif
 #endif
 }

@@ -21,7 +21,23 @@ struct Place {
     bool isInside;
     vec2 uv;         // isInside: the face's own (u,v)
     uint flags;      // kPlace...
+    float level;     // of the height map: continuous over the surface, the corners' own along edges and inside faces
 };
+
+layout(constant_id = 8) const bool kHasMips = false;
+
+float cornerLevel(uint corner) { return kHasMips ? texelFetch(levelTexels, int(corner)).x : 0.0; }
+
+// Corners of a quad are in the order of its sides; of a triangle three are used.
+float faceLevel(uint face, vec2 uv) {
+    if (!kHasMips) return 0.0;
+    vec4 c = texelFetch(levelTexels, int(scene.firstFaceLevel + face));
+#ifdef RELIEF_TRIANGLES
+    return (1.0 - uv.x - uv.y) * c.x + uv.x * c.y + uv.y * c.z;
+#else
+    return mix(mix(c.x, c.y, uv.x), mix(c.w, c.z, uv.x), uv.y);
+#endif
+}
 
 // Parameter of sample k of n along an edge (see segmentsOf); seen from the other end it is 1 minus this, to the bit.
 float sampleParameter(uint k, uint n, float rate) {
@@ -47,18 +63,20 @@ vec2 sidePoint(uint side, float x) {
 
 vec2 touchPoint(Touch touch, float t) { return sidePoint(touch.side, touch.start + t * (touch.end - touch.start)); }
 
-Place insidePlace(uint face, vec2 uv) { return Place(Touch(face, 0u, 0.0, 0.0), 0u, 0u, 0.0, true, uv, 0u); }
+Place insidePlace(uint face, vec2 uv) { return Place(Touch(face, 0u, 0.0, 0.0), 0u, 0u, 0.0, true, uv, 0u, faceLevel(face, uv)); }
 
 Place cornerPlace(uint corner) {
     Corner c = fetchCorner(corner);
-    return Place(c.owner, c.firstTouch, c.touchCount, 0.0, false, vec2(0), c.flags);
+    return Place(c.owner, c.firstTouch, c.touchCount, 0.0, false, vec2(0), c.flags, cornerLevel(corner));
 }
 
 // Sample k of n along an edge of that rate, in the edge's own direction.
 Place edgePlace(uint edge, uint k, uint n, float rate) {
     Edge e = fetchEdge(edge);
     if (k == 0u || k == n) return cornerPlace(e.corners[k == 0u ? 0 : 1]);
-    return Place(e.owner, e.firstTouch, e.touchCount, sampleParameter(k, n, rate), false, vec2(0), e.flags);
+    float t = sampleParameter(k, n, rate);
+    precise float level = mix(cornerLevel(e.corners[0]), cornerLevel(e.corners[1]), t);
+    return Place(e.owner, e.firstTouch, e.touchCount, t, false, vec2(0), e.flags, level);
 }
 
 // A side has as many segments as its edge, or as the two halves of a split one.

@@ -22,6 +22,7 @@ layout(set = 0, binding = kBindPoints) uniform samplerBuffer pointTexels;
 layout(set = 0, binding = kBindTexPoints) uniform samplerBuffer texPointTexels;
 layout(set = 0, binding = kBindEdgeRates) uniform samplerBuffer edgeRateTexels;
 layout(set = 0, binding = kBindDrawFaces) uniform usamplerBuffer drawFaceTexels;
+layout(set = 0, binding = kBindLevels) uniform samplerBuffer levelTexels;
 
 uvec4 recordTexel(uint first, uint texels, uint index, uint texel) {
     return texelFetch(recordTexels, int(first + texels * index + texel));

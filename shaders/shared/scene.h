@@ -25,7 +25,7 @@ RELIEF_ARRAY(Results, SampleResult)
 
 // Set 0.
 RELIEF_CONSTANT uint kBindScene = 0u;
-RELIEF_CONSTANT uint kBindHeight = 1u;       // texels of the height map, row after row from the top
+RELIEF_CONSTANT uint kBindHeight = 1u;       // texels of the height map, row after row from the top, level after level
 RELIEF_CONSTANT uint kBindAlbedo = 2u;       // sampled images
 RELIEF_CONSTANT uint kBindEnvironment = 3u;
 RELIEF_CONSTANT uint kBindShadow = 4u;
@@ -40,10 +40,11 @@ RELIEF_CONSTANT uint kBindMeshTexCoords = 12u;
 RELIEF_CONSTANT uint kBindDiceTable = 13u;   // runs of vertices and those around faces: shared/dice.h
 RELIEF_CONSTANT uint kBindDiceTiles = 14u;   // written per frame
 RELIEF_CONSTANT uint kBindDiceFirsts = 15u;  // first vertex of each run: written per frame
-RELIEF_CONSTANT uint kBindDepths = 16u;      // the samples of a picture
-RELIEF_CONSTANT uint kBindNormals = 17u;
-RELIEF_CONSTANT uint kBindColors = 18u;
-RELIEF_CONSTANT uint kBindCount = 19u;
+RELIEF_CONSTANT uint kBindLevels = 16u;      // mip levels of the height map: one a corner, then four a face
+RELIEF_CONSTANT uint kBindDepths = 17u;      // the samples of a picture
+RELIEF_CONSTANT uint kBindNormals = 18u;
+RELIEF_CONSTANT uint kBindColors = 19u;
+RELIEF_CONSTANT uint kBindCount = 20u;
 
 // Texels of four words that a record takes in kBindRecords.
 RELIEF_CONSTANT uint kFaceTexels = 2u;
@@ -95,6 +96,9 @@ struct Scene {
     float heightMid;
     float heightScale;
     uint mapRepeats;     // 1 repeat, 0 clamp
+    uint mapLevels;
+    uint mapFirsts[16];  // where each level's texels begin; a level is half as large as the one before, at least 1
+    uint firstFaceLevel; // texel of kBindLevels
     uint edgeCount;
 
     // One rate an edge from its length on screen: pixels = world length * pixelsAtUnitDistance / distance.
@@ -123,8 +127,10 @@ struct Scene {
     float shadowSoftness;   // radius of the filter, as a fraction of the shadow map
 };
 
+RELIEF_CONSTANT uint kMostMapLevels = 16u;
+
 #ifdef __cplusplus
-static_assert(offsetof(Scene, firstFace) == 64 && offsetof(Scene, worldToClip) == 64 + 40 + 44);
+static_assert(offsetof(Scene, firstFace) == 64 && offsetof(Scene, worldToClip) == 64 + 40 + 44 + 72);
 } // namespace relief
 #endif
 #endif

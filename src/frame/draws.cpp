@@ -6,23 +6,21 @@
 namespace relief {
 
 void Renderer::Parts::makeTriangles(Frame& frame, FrameStats& stats) {
-    const EdgeRates rates =
-        rater.rates(frame.model, frame.options, viewOf(frame.options.camera, desc.height), &stats.rateMs);
-    frame.edgeRates =
-        uploadTexels(device, {.name = "edge rates"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(rates.rates)));
-    frame.bindings[kBindEdgeRates].texels = frame.edgeRates.view.get();
+    frame.rates = rater.rates(frame.model, frame.options, viewOf(frame.options.camera, desc.height), &stats.rateMs);
+    frame.rateTexels = uploadRates(device, frame.model, frame.rates);
+    useRates(frame.model, frame.rates, frame.rateTexels, frame.scene, frame.bindings);
     if (frame.options.path == Path::dice)
-        makeDiced(frame, rates, stats);
+        makeDiced(frame, stats);
     else
-        makePlan(frame, rates, stats);
+        makePlan(frame, stats);
 }
 
-void Renderer::Parts::makePlan(Frame& frame, const EdgeRates& rates, FrameStats& stats) {
+void Renderer::Parts::makePlan(Frame& frame, FrameStats& stats) {
     const RenderOptions& o = frame.options;
     const DrawPlan& plan = frame.plan =
         o.path == Path::grid
-            ? planGrids(frame.model, rates)
-            : planPatches(frame.model, rates,
+            ? planGrids(frame.model, frame.rates)
+            : planPatches(frame.model, frame.rates,
                           o.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw));
     stats.triangleCount = plan.triangleCount;
     stats.vertexCount = plan.vertexCount;
@@ -40,8 +38,8 @@ void Renderer::Parts::makePlan(Frame& frame, const EdgeRates& rates, FrameStats&
     frame.draws = uploadArray<VkDrawIndirectCommand>(device, "draws", calls, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
 }
 
-void Renderer::Parts::makeDiced(Frame& frame, const EdgeRates& rates, FrameStats& stats) {
-    frame.diced = dicer.dice(frame.model, rates,
+void Renderer::Parts::makeDiced(Frame& frame, FrameStats& stats) {
+    frame.diced = dicer.dice(frame.model, frame.rates,
                              {.normal = frame.options.normal,
                               .wantsTexCoords = constantsOf(frame, Pass::color).wantsTexCoords,
                               .memory = frame.options.memory});

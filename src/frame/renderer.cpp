@@ -48,7 +48,8 @@ Renderer::~Renderer() = default;
 ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) const {
     ShaderConstants c{.hasTexCoords = frame.model.hasTexCoords(),
                       .hasHeight = frame.model.hasHeight(),
-                      .normal = frame.options.normal};
+                      .normal = frame.options.normal,
+                      .hasMips = frame.rates.hasMips()};
     // Where positions are all that counts no normal is cheaper than the limit normal.
     if (pass == Pass::shadow || pass == Pass::cracks) c.normal = NormalKind::limit;
     if (pass == Pass::cracks) c.show = kShowCracks;
@@ -151,7 +152,6 @@ void Renderer::Parts::describeView(Frame& frame) {
     s.pictureTarget = targets.picture.address;
     s.pictureSize = {desc.width, desc.height};
     s.eye = vec3(o.camera.eye);
-    s.isFractional = o.spacing == Spacing::fractional ? 1 : 0;
     s.exposure = 1;
     const dvec3 key = directionAt(o.lighting.keyAzimuth, o.lighting.keyElevation);
     s.keyDirection = vec3(key);
@@ -175,8 +175,10 @@ void Renderer::Parts::describeView(Frame& frame) {
     frame.bindings[kBindColors].view = targets.colors.view.get();
     for (const std::uint32_t image : {kBindShadow, kBindDepths, kBindNormals, kBindColors})
         frame.bindings[image].sampler = nearest.get();
-    for (const std::uint32_t texels : {kBindEdgeRates, kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
+    for (const std::uint32_t texels : {kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
         frame.bindings[texels].texels = noWords.view.get();
+    for (const std::uint32_t floats : {kBindEdgeRates, kBindLevels})
+        frame.bindings[floats].texels = frame.bindings[kBindPoints].texels;
 }
 
 BindingSet Renderer::Parts::bindingSet(const Frame& frame, Pass pass) {

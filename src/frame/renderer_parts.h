@@ -39,7 +39,9 @@ struct Renderer::Parts {
         const RenderOptions& options;
         Scene scene{};
         Binding bindings[kBindCount] = {};
-        TexelBuffer edgeRates, drawFaces;
+        EdgeRates rates;
+        RateTexels rateTexels;
+        TexelBuffer drawFaces;
         Buffer draws;
         DrawPlan plan;
         DicedMesh diced;
@@ -55,8 +57,8 @@ struct Renderer::Parts {
     void describeView(Frame& frame);
     BindingSet bindingSet(const Frame& frame, Pass pass);
     void makeTriangles(Frame& frame, FrameStats& stats);
-    void makePlan(Frame& frame, const EdgeRates& rates, FrameStats& stats);
-    void makeDiced(Frame& frame, const EdgeRates& rates, FrameStats& stats);
+    void makePlan(Frame& frame, FrameStats& stats);
+    void makeDiced(Frame& frame, FrameStats& stats);
     void makeGrids(const Model& model, const DrawPlan& plan);
     const Buffer& gridOf(const Model& model, const DrawBatch& batch) const;
     void drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, PushConstants constants);

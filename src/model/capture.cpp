@@ -26,9 +26,11 @@ struct Capture {
 
     /// A pipeline without pictures: vertices are captured, triangles are not drawn.
     Pipeline makePipeline(const std::vector<Stage>& stages, VkPrimitiveTopology topology) {
+        ShaderConstants constants = constantsOf(model, NormalKind::limit);
+        constants.hasMips = rates.hasMips();
         return makeGraphics(device, {.name = "capture",
                                      .stages = stages,
-                                     .constants = constantsOf(model, NormalKind::limit).values(),
+                                     .constants = constants.values(),
                                      .layout = GeometryInputs::layout(),
                                      .topology = topology,
                                      .drawsNothing = true,
@@ -39,15 +41,13 @@ struct Capture {
     /// Runs `draw` with everything bound.
     template <typename Draw>
     void run(const Pipeline& pipeline, const DrawPlan& plan, const Buffer& target, const Draw& draw) {
-        const TexelBuffer edgeRates =
-            uploadTexels(device, {.name = "edge rates"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(rates.rates)));
+        const RateTexels rateTexels = uploadRates(device, model, rates);
         const TexelBuffer drawFaces = uploadWords(device, "faces to draw", plan.faces);
         Scene scene{};
         Binding bindings[kBindDepths];
         inputs.fill(model, scene, bindings);
-        scene.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
         scene.captureTarget = target.address;
-        bindings[kBindEdgeRates].texels = edgeRates.view.get();
+        useRates(model, rates, rateTexels, scene, bindings);
         bindings[kBindDrawFaces].texels = drawFaces.view.get();
         const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
         device.run([&](VkCommandBuffer commands) {

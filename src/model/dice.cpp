@@ -192,8 +192,7 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     std::vector<std::uint32_t> tiles;
     appendRecords<kInsideTileTexels>(tiles, work.insides);
     const std::uint32_t firstTriangleTile = appendRecords<kTriangleTileTexels>(tiles, work.triangles);
-    const TexelBuffer edgeRates =
-        uploadTexels(device, {.name = "edge rates"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(rates.rates)));
+    const RateTexels rateTexels = uploadRates(device, model, rates);
     const TexelBuffer tileTexels =
         uploadTexels(device, {.name = "dice tiles"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(tiles)));
     const TexelBuffer firsts = uploadWords(device, "dice firsts", work.runFirsts);
@@ -201,7 +200,7 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     Scene scene{};
     Binding bindings[kBindDepths];
     inputs.fill(model, scene, bindings);
-    bindings[kBindEdgeRates].texels = edgeRates.view.get();
+    useRates(model, rates, rateTexels, scene, bindings);
     bindings[kBindDiceTable].texels = table.texels.view.get();
     bindings[kBindDiceTiles].texels = tileTexels.view.get();
     bindings[kBindDiceFirsts].texels = firsts.view.get();
@@ -211,10 +210,10 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     scene.firstFaceRuns = table.firstFaceRuns;
     scene.cornerRunCount = table.cornerRunCount;
     scene.runCount = std::uint32_t(table.runs.size());
-    scene.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
+    constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
     struct Pass {
         const char* file;

@@ -58,6 +58,32 @@ AlbedoMips albedoMips(const Image& image) {
     return mips;
 }
 
+/// A map and its mips one after another, each the mean of four texels of the one before, or of what there is.
+struct HeightMips {
+    std::vector<float> texels;
+    std::vector<std::uint32_t> firsts;
+};
+
+HeightMips heightMips(const HeightMap& map) {
+    HeightMips mips{map.texels, {0}};
+    int width = map.width, height = map.height;
+    while ((width > 1 || height > 1) && mips.firsts.size() < kMostMapLevels) {
+        const std::size_t from = mips.firsts.back();
+        const int w = std::max(width / 2, 1), h = std::max(height / 2, 1);
+        mips.firsts.push_back(std::uint32_t(mips.texels.size()));
+        const auto at = [&](int x, int y) {
+            return mips.texels[from + std::size_t(std::min(y, height - 1)) * std::size_t(width) +
+                               std::size_t(std::min(x, width - 1))];
+        };
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x)
+                mips.texels.push_back(0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
+                                               at(2 * x + 1, 2 * y + 1)));
+        width = w, height = h;
+    }
+    return mips;
+}
+
 Texture emptyTexture(Device& device, VkFormat format) {
     const std::byte one[4] = {std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}};
     return uploadTexture(device, {.name = "empty", .format = format}, one, 4);
@@ -140,11 +166,13 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
 void Model::uploadMaps(Device& device, const ModelDesc& desc) {
     if (desc.height != nullptr) {
         const HeightMap& map = *desc.height;
-        if (map.texels.size() > device.traits().maxTexelBufferElements)
+        if (map.texels.size() * 4 / 3 > device.traits().maxTexelBufferElements)
             fail(Failure::device, "a height map of {} x {} has more texels than {} reads ({})", map.width, map.height,
                  device.traits().name, device.traits().maxTexelBufferElements);
+        const HeightMips mips = heightMips(map);
         heights_ =
-            uploadTexels(device, {.name = "height map"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(map.texels)));
+            uploadTexels(device, {.name = "height map"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(mips.texels)));
+        mapFirsts_ = mips.firsts;
         mapSize_ = {map.width, map.height};
         heightMid_ = float(map.mid), heightScale_ = float(map.scale), heightReach_ = float(map.reach());
         wrap_ = map.wrap;
@@ -186,6 +214,8 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     scene.heightMid = heightMid_;
     scene.heightScale = heightScale_;
     scene.heightReach = heightReach_;
+    scene.mapLevels = std::uint32_t(mapFirsts_.size());
+    std::ranges::copy(mapFirsts_, scene.mapFirsts);
     scene.mapRepeats = wrap_ == Wrap::repeat ? 1 : 0;
     scene.edgeCount = std::uint32_t(edgeIsHalf_.size());
 }

@@ -47,6 +47,8 @@ public:
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] const std::vector<std::uint32_t>& tree() const { return tree_; } ///< as Surface::tree
+    /// Length of each edge in texels of the height map; measured when first asked for (empty then).
+    [[nodiscard]] std::vector<float>& edgeTexels() const { return edgeTexels_; }
     /// Which vertices a diced mesh has; made when first asked for.
     [[nodiscard]] const DiceTable& diceTable(Device& device) const;
     [[nodiscard]] std::size_t cornerCount() const { return cornerFlags_.size(); }
@@ -74,6 +76,8 @@ private:
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> tree_;
     mutable std::unique_ptr<DiceTable> diceTable_;
+    mutable std::vector<float> edgeTexels_;
+    std::vector<std::uint32_t> mapFirsts_; ///< where the texels of each level begin
     std::vector<bool> edgeIsHalf_;
     std::vector<std::uint32_t> cornerFlags_;
     std::uint32_t indexCount_ = 0, vertexCount_ = 0;
@@ -96,6 +100,7 @@ struct TriangleOptions {
     std::optional<int> rate; ///< segments a cage edge, the same for all ...
     double edgePixels = 2;   ///< ... or as many as make segments this long on screen
     Spacing spacing = Spacing::equal;
+    bool filtersHeights = true; ///< heights from the mips whose texels are as large as the segments
     NormalKind normal = NormalKind::full;
     /// Tessellation: vertices that one draw may make; default what suits the device.
     std::optional<std::uint32_t> tessellatedVerticesPerDraw;
@@ -113,6 +118,9 @@ struct View {
 struct EdgeRates {
     std::vector<float> rates;
     Spacing spacing = Spacing::equal;
+    std::vector<float> cornerLevels; ///< mip level of the height map at each corner; empty: 0 everywhere
+
+    [[nodiscard]] bool hasMips() const { return !cornerLevels.empty(); }
 
     [[nodiscard]] std::uint32_t segments(std::uint32_t edge) const;
 };

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "model/stages.h"
 #include "shared/rates.h"
@@ -16,6 +17,13 @@ std::uint32_t rateLimit(const DeviceTraits& traits, const TriangleOptions& optio
     return std::min(traits.maxTessellationLevel, kTessellatorLimit) / 2 * 2;
 }
 
+/// The corner where a side starts.
+std::uint32_t cornerOf(const Model& model, std::uint32_t sideEntry) {
+    const std::uint32_t edge = sideEntry & kSideEdgeMask;
+    if ((sideEntry & kSideReversed) == 0) return model.edges()[edge].corners[0];
+    return model.edges()[edge + ((sideEntry & kSideSplit) != 0 ? 1 : 0)].corners[1];
+}
+
 } // namespace
 
 std::uint32_t EdgeRates::segments(std::uint32_t edge) const {
@@ -28,49 +36,102 @@ struct EdgeRater::Parts {
     GeometryInputs inputs;
     ComputeStages stages;
     Timer timer;
+
+    std::vector<float> measure(const char* file, const Model& model, Scene scene, double* milliseconds);
+    std::vector<float> cornerLevels(const Model& model, const EdgeRates& rates);
 };
 
 EdgeRater::EdgeRater(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 EdgeRater::~EdgeRater() = default;
 
+/// One number an edge, as a shader leaves it in edgeRateTarget.
+std::vector<float> EdgeRater::Parts::measure(const char* file, const Model& model, Scene scene, double* milliseconds) {
+    std::vector<float> numbers(model.edges().size());
+    const Buffer out =
+        makeBuffer(device, {.name = file,
+                            .bytes = numbers.size() * sizeof(float),
+                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+    Binding bindings[kBindDepths];
+    inputs.fill(model, scene, bindings);
+    scene.edgeRateTarget = out.address;
+    const Pipeline& pipeline = stages.pipeline(file, model, constantsOf(model, NormalKind::limit));
+    const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
+    device.run([&](VkCommandBuffer commands) {
+        timer.reset(commands);
+        writeScene(commands, inputs.scene(), scene);
+        timer.stamp(commands);
+        bind(commands, pipeline, set);
+        pushConstants(commands, pipeline, {});
+        vkCmdDispatch(commands, std::uint32_t((numbers.size() + 63) / 64), 1, 1);
+        timer.stamp(commands);
+    });
+    const std::vector<double> times = timer.intervals();
+    if (milliseconds != nullptr && !times.empty()) *milliseconds = times[0];
+    downloadBytes(device, out, std::as_writable_bytes(std::span(numbers)));
+    return numbers;
+}
+
+/// At each corner the mean over its edges of the level whose texels are as long as their segments.
+std::vector<float> EdgeRater::Parts::cornerLevels(const Model& model, const EdgeRates& rates) {
+    if (!model.hasHeight()) return {};
+    std::vector<float>& texels = model.edgeTexels();
+    if (texels.empty()) texels = measure("texels.comp", model, {}, nullptr);
+    std::vector<float> levels(model.cornerCount(), 0), counts(model.cornerCount(), 0);
+    bool isAny = false;
+    for (std::size_t edge = 0; edge < texels.size(); ++edge) {
+        const float perSegment = texels[edge] / rates.rates[edge];
+        const float level = perSegment > 1 ? std::log2(perSegment) : 0; // NaN compares false
+        isAny = isAny || level > 0;
+        for (const std::uint32_t corner : model.edges()[edge].corners) levels[corner] += level, ++counts[corner];
+    }
+    if (!isAny) return {};
+    for (std::size_t corner = 0; corner < levels.size(); ++corner) levels[corner] /= std::max(counts[corner], 1.0f);
+    return levels;
+}
+
 EdgeRates EdgeRater::rates(const Model& model, const TriangleOptions& options, const View& view, double* milliseconds) {
-    Device& device = parts_->device;
-    const std::uint32_t limit = rateLimit(device.traits(), options);
+    const std::uint32_t limit = rateLimit(parts_->device.traits(), options);
     if (options.rate && (*options.rate < 1 || std::uint32_t(*options.rate) > limit))
         fail(Failure::usage, "--rate {} is not in 1..{}{}", *options.rate, limit,
              limit == kRateLimit ? "" : ", what the tessellator of this device does; --path grid and dice go to 1024");
-    if (options.rate) return {model.uniformRates(float(*options.rate)), options.spacing};
-
-    EdgeRates rates{std::vector<float>(model.edges().size()), options.spacing};
-    const Buffer out =
-        makeBuffer(device, {.name = "edge rates",
-                            .bytes = rates.rates.size() * sizeof(float),
-                            .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-    Scene scene{};
-    Binding bindings[kBindDepths];
-    parts_->inputs.fill(model, scene, bindings);
-    scene.edgeRateTarget = out.address;
-    scene.eye = view.eye;
-    scene.nearDistance = view.nearDistance;
-    scene.pixelsAtUnitDistance = view.pixelsAtUnitDistance;
-    scene.edgePixels = float(options.edgePixels);
-    scene.maxRate = limit;
-    scene.isFractional = options.spacing == Spacing::fractional ? 1 : 0;
-    const Pipeline& pipeline = parts_->stages.pipeline("rates.comp", model, constantsOf(model, NormalKind::limit));
-    const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
-    device.run([&](VkCommandBuffer commands) {
-        parts_->timer.reset(commands);
-        writeScene(commands, parts_->inputs.scene(), scene);
-        parts_->timer.stamp(commands);
-        bind(commands, pipeline, set);
-        pushConstants(commands, pipeline, {});
-        vkCmdDispatch(commands, std::uint32_t((rates.rates.size() + 63) / 64), 1, 1);
-        parts_->timer.stamp(commands);
-    });
-    const std::vector<double> times = parts_->timer.intervals();
-    if (milliseconds != nullptr && !times.empty()) *milliseconds = times[0];
-    downloadBytes(device, out, std::as_writable_bytes(std::span(rates.rates)));
+    EdgeRates rates{{}, options.spacing, {}};
+    if (options.rate) {
+        rates.rates = model.uniformRates(float(*options.rate));
+    } else {
+        Scene scene{};
+        scene.eye = view.eye;
+        scene.nearDistance = view.nearDistance;
+        scene.pixelsAtUnitDistance = view.pixelsAtUnitDistance;
+        scene.edgePixels = float(options.edgePixels);
+        scene.maxRate = limit;
+        scene.isFractional = options.spacing == Spacing::fractional ? 1 : 0;
+        rates.rates = parts_->measure("rates.comp", model, scene, milliseconds);
+    }
+    if (options.filtersHeights) rates.cornerLevels = parts_->cornerLevels(model, rates);
     return rates;
+}
+
+RateTexels uploadRates(Device& device, const Model& model, const EdgeRates& rates) {
+    std::vector<vec4> levels;
+    if (rates.hasMips()) {
+        for (const float level : rates.cornerLevels) levels.emplace_back(level, 0, 0, 0);
+        for (const Face& face : model.faces()) {
+            vec4& four = levels.emplace_back(0);
+            for (int side = 0; side < model.sideCount() && face.root != kNoPatch; ++side)
+                four[side] = rates.cornerLevels[cornerOf(model, face.sides[side])];
+        }
+    }
+    return {uploadTexels(device, {.name = "edge rates"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(rates.rates))),
+            uploadTexels(device, {.name = "height levels"}, VK_FORMAT_R32G32B32A32_SFLOAT,
+                         std::as_bytes(std::span(levels)))};
+}
+
+void useRates(const Model& model, const EdgeRates& rates, const RateTexels& texels, Scene& scene,
+              std::span<Binding> bindings) {
+    scene.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
+    scene.firstFaceLevel = std::uint32_t(model.cornerCount());
+    bindings[kBindEdgeRates].texels = texels.rates.view.get();
+    bindings[kBindLevels].texels = texels.levels.view.get();
 }
 
 FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint32_t face) {

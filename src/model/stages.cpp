@@ -42,8 +42,9 @@ void GeometryInputs::fill(const Model& model, Scene& scene, std::span<Binding> b
     bindings[kBindEnvironment].view = bindings[kBindShadow].view = bindings[kBindAlbedo].view;
     for (const std::uint32_t image : {kBindAlbedo, kBindEnvironment, kBindShadow})
         bindings[image].sampler = sampler_.get();
-    for (const std::uint32_t texels : {kBindEdgeRates, kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
+    for (const std::uint32_t texels : {kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
         bindings[texels].texels = none_.view.get();
+    bindings[kBindEdgeRates].texels = bindings[kBindLevels].texels = bindings[kBindPoints].texels; // floats
 }
 
 const Pipeline& ComputeStages::pipeline(const char* file, const Model& model, const ShaderConstants& constants) {

@@ -20,7 +20,7 @@ struct PushConstants {
 /// Set 0 of every pass (kBind...).
 PipelineLayoutDesc passLayout();
 
-/// Specialization constants 0..7 in the order of the shaders' constant_id.
+/// Specialization constants 0..8 in the order of the shaders' constant_id.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
@@ -28,10 +28,11 @@ struct ShaderConstants {
     std::uint32_t show = kShowShaded;
     bool hasAlbedoMap = false;
     std::uint32_t groupSize = 64; ///< dicing: invocations of a workgroup
+    bool hasMips = false;
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
-        return {isGenericBasis, hasTexCoords, hasHeight,    std::uint32_t(normal),
-                wantsTexCoords, show,         hasAlbedoMap, groupSize};
+        return {isGenericBasis, hasTexCoords, hasHeight, std::uint32_t(normal), wantsTexCoords, show,
+                hasAlbedoMap,   groupSize,    hasMips};
     }
 };
 
@@ -84,6 +85,15 @@ private:
     Device& device_;
     std::map<std::pair<std::string, std::vector<std::uint32_t>>, Pipeline> pipelines_;
 };
+
+/// What shaders read of rates: the rates themselves and the levels of the height map.
+struct RateTexels {
+    TexelBuffer rates, levels;
+};
+RateTexels uploadRates(Device& device, const Model& model, const EdgeRates& rates);
+/// Binds them and fills their part of the scene.
+void useRates(const Model& model, const EdgeRates& rates, const RateTexels& texels, Scene& scene,
+              std::span<Binding> bindings);
 
 inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
     return {.hasTexCoords = model.hasTexCoords(), .hasHeight = model.hasHeight(), .normal = normal};
