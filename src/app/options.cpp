@@ -121,6 +121,10 @@ void addOutput(CLI::App& app, Output& output) {
 
 void addSurface(CLI::App& app, SurfaceArgs& args) {
     app.add_option("cage", args.cage, "control cage or mesh (.obj)")->required()->option_text("CAGE");
+    addSurfaceOptions(app, args);
+}
+
+void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     listed(addWord(app, "--scheme", args.scheme,
                    "catmark, loop, bilinear, or none: draw the polygons as they are (default: none for a mesh of "
                    "triangles, else catmark)",

@@ -46,6 +46,7 @@ struct PictureArgs {
 
 void addOutput(CLI::App& app, Output& output);
 void addSurface(CLI::App& app, SurfaceArgs& args);
+void addSurfaceOptions(CLI::App& app, SurfaceArgs& args); ///< the same without the cage itself
 void addNormal(CLI::App& app, std::string& word);
 void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
