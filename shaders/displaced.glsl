@@ -112,6 +112,47 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     return patchFrame(true, fetchPatch(leaf.patchIndex), leaf.uv).p.xy;
 }
 
+// A point of the limit surface, not displaced yet.
+struct SurfacePoint {
+    LimitFrame frame;
+    TexFrame tex;
+    vec3 n;          // unit normal
+    float area;      // |p_u x p_v|
+};
+
+SurfacePoint surfacePoint(Patch patch_, Leaf leaf, vec2 uv, bool wantsTexture) {
+    SurfacePoint point;
+    point.tex = TexFrame(uv, mat2(1.0));
+    // One call for both kinds of patch: the compiler unfolds every call, and compiling is part of a cold start.
+    uint kinds = wantsTexture && kHasTexCoords && (kHasHeight || kWantsTexCoords) ? 2u : 1u;
+    for (uint kind = 0u; kind < kinds; ++kind) {
+        LimitFrame f = byFace(patchFrame(kind == 1u, patch_, leaf.uv), leaf.scale);
+        if (kind == 0u) point.frame = f;
+        else point.tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
+    }
+    mendTangents(point.frame, uv, leaf.scale);
+    vec3 areaNormal = cross(point.frame.pu, point.frame.pv);
+    point.area = length(areaNormal);
+    precise vec3 n = areaNormal / point.area;
+    point.n = n;
+    return point;
+}
+
+// What belongs to the face that a point is seen from.
+void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
+    s.normal = displacedNormal(point.frame, point.n, point.area, height, point.tex.jacobian);
+    s.st = point.tex.st;
+    s.frame = point.frame;
+    s.n = point.n;
+    s.gradient = height.gradient;
+    s.jacobian = point.tex.jacobian;
+}
+
+HeightSample heightAt(vec2 st) {
+    if (kHasHeight) return sampleHeight(st);
+    return HeightSample(0.0, vec2(0));
+}
+
 // Walks the faces that meet at the place, in the edge's fixed order: one of them where the surface is smooth, all where
 // the normal has to be agreed on. The first is the owner: it gives the point and the height.
 DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
@@ -126,38 +167,18 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
         vec2 uv = place.isInside ? place.uv : touchPoint(touch, place.t);
         bool isTouchOfFace = touch.face == face && !isOwn;
         bool isUsed = i == 0u || isTouchOfFace;
-        // One call for both kinds of patch: the compiler unfolds every call, and compiling is part of a cold start.
         Leaf leaf = findLeaf(touch.face, uv);
-        Patch patch_ = fetchPatch(leaf.patchIndex);
-        LimitFrame frame = kNoFrame;
-        TexFrame tex = TexFrame(uv, mat2(1.0));
-        uint kinds = isUsed && kHasTexCoords && (kHasHeight || kWantsTexCoords) ? 2u : 1u;
-        for (uint kind = 0u; kind < kinds; ++kind) {
-            LimitFrame f = byFace(patchFrame(kind == 1u, patch_, leaf.uv), leaf.scale);
-            if (kind == 0u) frame = f;
-            else tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
-        }
-        mendTangents(frame, uv, leaf.scale);
-        vec3 areaNormal = cross(frame.pu, frame.pv);
-        float area = length(areaNormal);
-        precise vec3 n = areaNormal / area;
-        direction += n;
-
+        SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex), leaf, uv, isUsed);
+        direction += point.n;
         if (isUsed) {
             isOwn = touch.face == face;
-            HeightSample height = HeightSample(0.0, vec2(0));
-            if (kHasHeight) height = sampleHeight(tex.st);
+            HeightSample height = heightAt(point.tex.st);
             if (i == 0u) {
-                s.p = frame.p;
+                s.p = point.frame.p;
                 s.h = height.h;
-                ownersNormal = n;
+                ownersNormal = point.n;
             }
-            s.normal = displacedNormal(frame, n, area, height, tex.jacobian);
-            s.st = tex.st;
-            s.frame = frame;
-            s.n = n;
-            s.gradient = height.gradient;
-            s.jacobian = tex.jacobian;
+            addAttributes(s, point, height);
         }
     }
     // Normals that cancel (a fin, faces of opposite winding) agree on the owner's.
@@ -166,6 +187,20 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
     s.q = q;
     s.normal = dot(s.normal, s.normal) > 0.0 ? normalize(s.normal) : s.n;
     if (kWantsTexCoords && !isOwn) s.st = ownTexCoords(face, faceUV);
+    return s;
+}
+
+// The same for a point inside a face whose leaf is known.
+DisplacedSample displacedInLeaf(Patch patch_, Leaf leaf, vec2 uv) {
+    DisplacedSample s;
+    SurfacePoint point = surfacePoint(patch_, leaf, uv, true);
+    HeightSample height = heightAt(point.tex.st);
+    addAttributes(s, point, height);
+    s.p = point.frame.p;
+    s.h = height.h;
+    precise vec3 q = displacedPoint(s.p, s.n, s.h);
+    s.q = q;
+    s.normal = dot(s.normal, s.normal) > 0.0 ? normalize(s.normal) : s.n;
     return s;
 }
 #endif

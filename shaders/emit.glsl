@@ -1,13 +1,14 @@
 // The end of every stage that makes vertices of the displaced surface.
 #define RELIEF_VARYING out
 #include "varyings.glsl"
+#include "project.glsl"
 
-vec4 project(vec3 position) {
-    if (drawsShadow != 0u) return scene.worldToShadow * vec4(position, 1.0);
-    return scene.worldToClip * vec4(position, 1.0);
-}
+#ifdef RELIEF_CAPTURES_STREAM
+layout(xfb_buffer = 0, xfb_stride = 16, xfb_offset = 0, location = 5) out vec4 captured; // position, 1 on a boundary
+#endif
 
-void emitVertex(uint face, vec2 uv, Place place, uint rate) {
+// `slot` is the vertex's place among those captured.
+void emitVertex(uint face, vec2 uv, Place place, uint rate, uint slot) {
     DisplacedSample s = displaced(face, uv, place);
     precise vec4 clip = project(s.q);
     gl_Position = clip;
@@ -16,4 +17,12 @@ void emitVertex(uint face, vec2 uv, Place place, uint rate) {
     vHeight = s.h;
     vFace = recordTexel(scene.firstFace, kFaceTexels, face, 1u).y;
     vRate = rate;
+#if defined(RELIEF_CAPTURES_STREAM) || defined(RELIEF_CAPTURES_STORED)
+    vec4 vertex = vec4(s.q, (place.flags & kPlaceOnBoundary) != 0u ? 1.0 : 0.0);
+#ifdef RELIEF_CAPTURES_STREAM
+    captured = vertex;
+#else
+    scene.captureTarget.at[passFirst + slot] = vertex;
+#endif
+#endif
 }

@@ -4,6 +4,12 @@
 
 #include "scene.glsl"
 
+// Where control points come from: the surface's arrays, unless a stage holds them itself.
+#ifndef RELIEF_PATCH_POINT
+#define RELIEF_PATCH_POINT patchPoint
+#define RELIEF_TEX_PATCH_POINT texPatchPoint
+#endif
+
 // OpenSubdiv's own basis functions, as its library prints them (the build writes the file): what triangles are drawn
 // with, and the check of the faster forms below for quads (tests compare them through sample.comp).
 #if defined(RELIEF_TRIANGLES) || defined(RELIEF_GENERIC_BASIS)
@@ -54,10 +60,15 @@ Leaf findLeaf(uint face, vec2 uv) {
     return leaf;
 }
 
+uint patchSize(uint type) {
+    return type == kPatchRegular ? 16u : type == kPatchGregory ? 20u : type == kPatchQuads ? 4u
+           : type == kPatchLoop ? 12u : type == kPatchGregoryTriangle ? 18u : 3u;
+}
+
 // A control point of a patch of the surface, or of the texture coordinates on it (in x and y).
 vec3 controlPoint(bool isTexture, uint i) {
-    if (isTexture) return vec3(texPatchPoint(i), 0.0);
-    return patchPoint(i);
+    if (isTexture) return vec3(RELIEF_TEX_PATCH_POINT(i), 0.0);
+    return RELIEF_PATCH_POINT(i);
 }
 
 #ifndef RELIEF_TRIANGLES
@@ -116,7 +127,7 @@ LimitFrame regular(uint firstPoint, uint param1, vec2 uv) {
     precise LimitFrame f = kNoFrame;
     for (uint row = 0u; row < 4u; ++row) {
         uint first = firstPoint + 4u * row;
-        vec3 a = patchPoint(first), b = patchPoint(first + 1u), c = patchPoint(first + 2u), d = patchPoint(first + 3u);
+        vec3 a = RELIEF_PATCH_POINT(first), b = RELIEF_PATCH_POINT(first + 1u), c = RELIEF_PATCH_POINT(first + 2u), d = RELIEF_PATCH_POINT(first + 3u);
         precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
         precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
@@ -137,7 +148,7 @@ LimitFrame regularTexture(uint firstPoint, uint param1, vec2 uv) {
     vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
     for (uint row = 0u; row < 4u; ++row) {
         uint first = firstPoint + 4u * row;
-        vec2 a = texPatchPoint(first), b = texPatchPoint(first + 1u), c = texPatchPoint(first + 2u), d = texPatchPoint(first + 3u);
+        vec2 a = RELIEF_TEX_PATCH_POINT(first), b = RELIEF_TEX_PATCH_POINT(first + 1u), c = RELIEF_TEX_PATCH_POINT(first + 2u), d = RELIEF_TEX_PATCH_POINT(first + 3u);
         vec2 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         st += v.w[row] * x;
         su += v.w[row] * (u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d);

@@ -3,18 +3,23 @@
 #include "scene.glsl"
 #define RELIEF_VARYING out
 #include "varyings.glsl"
+#include "project.glsl"
 
-// A dense triangle mesh as it is: the opponent of every comparison.
+// A triangle mesh as it is: a dense one, the opponent of every comparison, or one that was diced.
 layout(set = 0, binding = kBindMesh) uniform samplerBuffer meshTexels;
+layout(set = 0, binding = kBindMeshTexCoords) uniform samplerBuffer meshTexCoordTexels;
 
 layout(constant_id = 1) const bool kHasTexCoords = false;
+layout(constant_id = 4) const bool kWantsTexCoords = false;
 
 void main() {
-    vec3 position = texelFetch(meshTexels, 2 * gl_VertexIndex).xyz;
-    gl_Position = (drawsShadow != 0u ? scene.worldToShadow : scene.worldToClip) * vec4(position, 1.0);
+    vec4 vertex = texelFetch(meshTexels, 2 * gl_VertexIndex);
+    precise vec4 clip = project(vertex.xyz);
+    gl_Position = clip;
     vNormal = texelFetch(meshTexels, 2 * gl_VertexIndex + 1).xyz;
-    vTexCoord = kHasTexCoords ? texelFetch(texPointTexels, gl_VertexIndex).xy : vec2(0);
-    vHeight = 0.0;
-    vFace = uint(gl_VertexIndex) / 64u;
-    vRate = 1u;
+    vTexCoord = kHasTexCoords && kWantsTexCoords ? texelFetch(meshTexCoordTexels, gl_VertexIndex).xy : vec2(0);
+    vHeight = vertex.w;
+    // Draws of a face each carry its number; a whole mesh in one draw has patches of 64 vertices instead.
+    vFace = passRows > 0u ? recordTexel(scene.firstFace, kFaceTexels, passFirst, 1u).y : uint(gl_VertexIndex) / 64u;
+    vRate = max(passNumber, 1u);
 }

@@ -3,6 +3,7 @@
 #define RELIEF_PLACES_GLSL
 
 #include "scene.glsl"
+#include "shared/rates.h"
 
 #ifdef RELIEF_TRIANGLES
 const uint kSideCount = 3u;
@@ -19,7 +20,22 @@ struct Place {
     float t;         // along the owner edge
     bool isInside;
     vec2 uv;         // isInside: the face's own (u,v)
+    uint flags;      // kPlace...
 };
+
+// Parameter of sample k of n along an edge (see segmentsOf); seen from the other end it is 1 minus this, to the bit.
+float sampleParameter(uint k, uint n, float rate) {
+    uint near = min(k, n - k);
+    precise float t = min(float(near) / rate, 0.5);
+    precise float mirrored = 1.0 - t;
+    return k == near ? t : mirrored;
+}
+
+// The same for a coordinate x = k/n that needs no exactness.
+float spaced(float x, float n, float rate) {
+    float t = min(min(x, 1.0 - x) * n / rate, 0.5);
+    return x <= 0.5 ? t : 1.0 - t;
+}
 
 vec2 sidePoint(uint side, float x) {
 #ifdef RELIEF_TRIANGLES
@@ -31,36 +47,46 @@ vec2 sidePoint(uint side, float x) {
 
 vec2 touchPoint(Touch touch, float t) { return sidePoint(touch.side, touch.start + t * (touch.end - touch.start)); }
 
-Place insidePlace(uint face, vec2 uv) { return Place(Touch(face, 0u, 0.0, 0.0), 0u, 0u, 0.0, true, uv); }
+Place insidePlace(uint face, vec2 uv) { return Place(Touch(face, 0u, 0.0, 0.0), 0u, 0u, 0.0, true, uv, 0u); }
 
 Place cornerPlace(uint corner) {
     Corner c = fetchCorner(corner);
-    return Place(c.owner, c.firstTouch, c.touchCount, 0.0, false, vec2(0));
+    return Place(c.owner, c.firstTouch, c.touchCount, 0.0, false, vec2(0), c.flags);
 }
 
-// Sample k of n along an edge, in the edge's own direction.
-Place edgePlace(uint edge, uint k, uint n) {
+// Sample k of n along an edge of that rate, in the edge's own direction.
+Place edgePlace(uint edge, uint k, uint n, float rate) {
     Edge e = fetchEdge(edge);
     if (k == 0u || k == n) return cornerPlace(e.corners[k == 0u ? 0 : 1]);
-    return Place(e.owner, e.firstTouch, e.touchCount, float(k) / float(n), false, vec2(0));
+    return Place(e.owner, e.firstTouch, e.touchCount, sampleParameter(k, n, rate), false, vec2(0), e.flags);
 }
 
-uint sideRate(uint sideEntry) {
-    uint rate = edgeRate(sideEntry & kSideEdgeMask);
-    return (sideEntry & kSideSplit) != 0u ? 2u * rate : rate;
+// A side has as many segments as its edge, or as the two halves of a split one.
+struct SideRate {
+    uint segments;
+    float rate;
+};
+
+SideRate sideRate(uint sideEntry) {
+    float rate = edgeRate(sideEntry & kSideEdgeMask);
+    uint halves = (sideEntry & kSideSplit) != 0u ? 2u : 1u;
+    return SideRate(halves * segmentsOf(rate, scene.isFractional), float(halves) * rate);
 }
 
-// Sample k of n = sideRate() along a side, in the side's direction.
-Place sidePlace(uint sideEntry, uint k, uint n) {
+// Sample k along a side, in the side's direction.
+Place sidePlace(uint sideEntry, uint k, SideRate side) {
     uint edge = sideEntry & kSideEdgeMask;
+    uint n = side.segments;
+    float rate = side.rate;
     if ((sideEntry & kSideReversed) != 0u) k = n - k;
     if ((sideEntry & kSideSplit) != 0u) {
         n /= 2u;
+        rate *= 0.5;
         if (k > n) {
             k -= n;
             edge += 1u;
         }
     }
-    return edgePlace(edge, k, n);
+    return edgePlace(edge, k, n, rate);
 }
 #endif

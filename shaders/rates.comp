@@ -12,7 +12,7 @@ float pixelLength(uint edge) {
     float pixels = 0.0;
     vec3 last = vec3(0);
     for (uint k = 0u; k <= pieces; ++k) {
-        Place place = edgePlace(edge, k, pieces);
+        Place place = edgePlace(edge, k, pieces, float(pieces));
         vec3 q = displaced(place.owner.face, vec2(0), place).q;
         float distance = max(length(0.5 * (q + last) - scene.eye), scene.nearDistance);
         if (k > 0u) pixels += length(q - last) * scene.pixelsAtUnitDistance / distance;
@@ -29,8 +29,9 @@ void main() {
     float pixels = 0.0;
     for (uint i = 0u; i < (partner == edge ? 1u : 2u); ++i)
         pixels = max(pixels, pixelLength(i == 0u ? edge : partner));
-    float rate = ceil(pixels / scene.edgePixels);
+    float rate = pixels / scene.edgePixels;
+    if (scene.isFractional == 0u) rate = ceil(rate);
     uint limit = partner == edge ? scene.maxRate : max(scene.maxRate / 2u, 1u);
     // NaN compares false: it becomes 1, never a missing face.
-    scene.edgeRateTarget.at[edge] = rate > 1.0 ? uint(min(rate, float(limit))) : 1u;
+    scene.edgeRateTarget.at[edge] = rate > 1.0 ? min(rate, float(limit)) : 1.0;
 }

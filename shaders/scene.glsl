@@ -10,15 +10,17 @@
 layout(set = 0, binding = kBindScene, scalar) uniform SceneBlock { Scene scene; };
 
 layout(push_constant, scalar) uniform Push {
-    uint passNumber;     // grid: segments a side; sample: number of queries
+    uint passNumber;     // grid: segments along u; sample: number of queries
     uint drawsShadow;    // 1: from the key light
+    uint passRows;       // grid: segments along v
+    uint passFirst;      // grid: where the draw's captured vertices begin
 };
 
 layout(set = 0, binding = kBindRecords) uniform usamplerBuffer recordTexels;
 layout(set = 0, binding = kBindWords) uniform usamplerBuffer wordTexels;
 layout(set = 0, binding = kBindPoints) uniform samplerBuffer pointTexels;
 layout(set = 0, binding = kBindTexPoints) uniform samplerBuffer texPointTexels;
-layout(set = 0, binding = kBindEdgeRates) uniform usamplerBuffer edgeRateTexels;
+layout(set = 0, binding = kBindEdgeRates) uniform samplerBuffer edgeRateTexels;
 layout(set = 0, binding = kBindDrawFaces) uniform usamplerBuffer drawFaceTexels;
 
 uvec4 recordTexel(uint first, uint texels, uint index, uint texel) {
@@ -44,12 +46,13 @@ Touch fetchTouch(uint i) { return touchOf(recordTexel(scene.firstTouch, kTouchTe
 
 Edge fetchEdge(uint i) {
     uvec4 a = recordTexel(scene.firstEdge, kEdgeTexels, i, 0u), b = recordTexel(scene.firstEdge, kEdgeTexels, i, 1u);
-    return Edge(touchOf(a), uint[2](b.x, b.y), b.z, b.w, recordTexel(scene.firstEdge, kEdgeTexels, i, 2u).x);
+    uvec4 c = recordTexel(scene.firstEdge, kEdgeTexels, i, 2u);
+    return Edge(touchOf(a), uint[2](b.x, b.y), b.z, b.w, c.x, c.y);
 }
 
 Corner fetchCorner(uint i) {
     uvec4 b = recordTexel(scene.firstCorner, kCornerTexels, i, 1u);
-    return Corner(touchOf(recordTexel(scene.firstCorner, kCornerTexels, i, 0u)), b.x, b.y);
+    return Corner(touchOf(recordTexel(scene.firstCorner, kCornerTexels, i, 0u)), b.x, b.y, b.z);
 }
 
 uint treeEntry(uint i) { return texelFetch(wordTexels, int(i)).x; }
@@ -64,6 +67,6 @@ vec2 texPatchPoint(uint i) {
     return texelFetch(texPointTexels, int(point)).xy;
 }
 
-uint edgeRate(uint edge) { return texelFetch(edgeRateTexels, int(edge)).x; }
+float edgeRate(uint edge) { return texelFetch(edgeRateTexels, int(edge)).x; }
 
 #endif

@@ -15,7 +15,10 @@ namespace relief {
     layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name { type at[]; };
 #define RELIEF_ADDRESS(type) type
 RELIEF_ARRAY(Words, uint)
+RELIEF_ARRAY(Floats, float)
 RELIEF_ARRAY(WordPairs, uvec2)
+RELIEF_ARRAY(Vectors, vec4)
+RELIEF_ARRAY(Pairs, vec2)
 RELIEF_ARRAY(Queries, SampleQuery)
 RELIEF_ARRAY(Results, SampleResult)
 #endif
@@ -30,14 +33,17 @@ RELIEF_CONSTANT uint kBindRecords = 5u;      // texel buffers: Face, Patch, Edge
 RELIEF_CONSTANT uint kBindWords = 6u;        // tree, patch points, texture patch points
 RELIEF_CONSTANT uint kBindPoints = 7u;
 RELIEF_CONSTANT uint kBindTexPoints = 8u;
-RELIEF_CONSTANT uint kBindEdgeRates = 9u;    // segments an edge: written per frame
+RELIEF_CONSTANT uint kBindEdgeRates = 9u;    // segments an edge, floats: written per frame
 RELIEF_CONSTANT uint kBindDrawFaces = 10u;   // faces to draw in order: written per frame
-RELIEF_CONSTANT uint kBindMesh = 11u;        // a dense mesh: positions and normals in turn; its texture coordinates
-                                             // are kBindTexPoints
-RELIEF_CONSTANT uint kBindDepths = 12u;      // the samples of a picture
-RELIEF_CONSTANT uint kBindNormals = 13u;
-RELIEF_CONSTANT uint kBindColors = 14u;
-RELIEF_CONSTANT uint kBindCount = 15u;
+RELIEF_CONSTANT uint kBindMesh = 11u;        // of a dense or diced mesh: position with height and normal in turn
+RELIEF_CONSTANT uint kBindMeshTexCoords = 12u;
+RELIEF_CONSTANT uint kBindDiceTable = 13u;   // runs of vertices and those around faces: shared/dice.h
+RELIEF_CONSTANT uint kBindDiceTiles = 14u;   // written per frame
+RELIEF_CONSTANT uint kBindDiceFirsts = 15u;  // first vertex of each run: written per frame
+RELIEF_CONSTANT uint kBindDepths = 16u;      // the samples of a picture
+RELIEF_CONSTANT uint kBindNormals = 17u;
+RELIEF_CONSTANT uint kBindColors = 18u;
+RELIEF_CONSTANT uint kBindCount = 19u;
 
 // Texels of four words that a record takes in kBindRecords.
 RELIEF_CONSTANT uint kFaceTexels = 2u;
@@ -54,6 +60,7 @@ RELIEF_CONSTANT uint kShowRate = 3u;
 RELIEF_CONSTANT uint kShowFaces = 4u;
 RELIEF_CONSTANT uint kShowWireframe = 5u; // the surface under the lines
 RELIEF_CONSTANT uint kShowLines = 6u;     // the lines themselves
+RELIEF_CONSTANT uint kShowCracks = 7u;    // front faces count up, back faces down: closed surfaces add up to 0
 
 // --normal
 RELIEF_CONSTANT uint kNormalLimit = 0u;
@@ -63,9 +70,13 @@ RELIEF_CONSTANT uint kNormalFull = 2u;
 struct Scene {
     // Written through addresses: light.comp (four halves a pixel), rates.comp, sample.comp.
     RELIEF_ADDRESS(WordPairs) pictureTarget;
-    RELIEF_ADDRESS(Words) edgeRateTarget;
+    RELIEF_ADDRESS(Floats) edgeRateTarget;
     RELIEF_ADDRESS(Queries) sampleQueries;
     RELIEF_ADDRESS(Results) sampleResults;
+    RELIEF_ADDRESS(Vectors) captureTarget;
+    RELIEF_ADDRESS(Vectors) dicedVertices;   // as kBindMesh
+    RELIEF_ADDRESS(Pairs) dicedTexCoords;
+    RELIEF_ADDRESS(Words) dicedIndices;
 
     // Where each array starts: texels of kBindRecords, words of kBindWords.
     uint firstFace;
@@ -75,6 +86,9 @@ struct Scene {
     uint firstTouch;
     uint firstPatchPoint;    // the tree is at 0
     uint firstTexPatchPoint;
+    uint firstFaceRuns;      // texels of kBindDiceTable; runs are at 0
+    uint cornerRunCount;     // runs of one vertex: the first ones
+    uint runCount;
 
     // h = heightScale * (texel - heightMid) in cage units; a map of 0 x 0 is no displacement.
     ivec2 mapSize;
@@ -88,6 +102,7 @@ struct Scene {
     float edgePixels;
     uint maxRate;
     float nearDistance;
+    uint isFractional;   // --spacing fractional: rates need not be whole
 
     mat4 worldToClip;
     mat4 clipToWorld;
@@ -104,11 +119,12 @@ struct Scene {
     mat4 worldToShadow;
     float hasShadows;       // 1 or 0
     float shadowBias;       // cage units along the normal
+    vec3 crackShift;        // see emit.glsl; 0 for pictures
     float shadowSoftness;   // radius of the filter, as a fraction of the shadow map
 };
 
 #ifdef __cplusplus
-static_assert(offsetof(Scene, firstFace) == 32 && offsetof(Scene, worldToClip) == 32 + 28 + 40);
+static_assert(offsetof(Scene, firstFace) == 64 && offsetof(Scene, worldToClip) == 64 + 40 + 44);
 } // namespace relief
 #endif
 #endif

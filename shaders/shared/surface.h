@@ -41,6 +41,10 @@ RELIEF_CONSTANT uint kPatchRegular = 6u;
 RELIEF_CONSTANT uint kPatchGregory = 9u;
 RELIEF_CONSTANT uint kPatchGregoryTriangle = 10u;
 
+// What an edge or corner is besides.
+RELIEF_CONSTANT uint kPlaceOnBoundary = 1u; // an edge of one drawn face alone, or an end of such an edge
+RELIEF_CONSTANT uint kPlaceOnSeam = 2u;     // an edge whose faces have texture coordinates of their own
+
 struct Patch {
     uint firstPoint;     // into Surface::patchPoints
     uint param0;         // Far::PatchParam::field0
@@ -72,17 +76,19 @@ struct Edge {
     uint firstTouch;     // into Surface::touches: all incident faces in index order,
     uint touchCount;     // or 0 where the owner's normal is the surface's (smooth edges)
     uint partner;        // the other half of a split cage edge, or the edge itself
+    uint flags;          // kPlace...
 };
 
 struct Corner {
     Touch owner;
     uint firstTouch;     // as for edges
     uint touchCount;
+    uint flags;          // kPlace...
 };
 
 #ifdef __cplusplus
 static_assert(sizeof(Patch) == 28 && sizeof(Face) == 24 && sizeof(Touch) == 16);
-static_assert(sizeof(Edge) == 36 && sizeof(Corner) == 24);
+static_assert(sizeof(Edge) == 40 && sizeof(Corner) == 28);
 } // namespace relief
 #endif
 #endif

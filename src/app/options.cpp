@@ -44,8 +44,8 @@ CLI::Option* addNumbers(CLI::App& app, const char* name, std::vector<T>& numbers
 
 void addTriangles(CLI::App& app, PictureArgs& args) {
     listed(addWord(app, "--path", args.path,
-                   "how triangles are made: tessellation or grid (tessellation where there is one)",
-                   {"tessellation", "grid"}),
+                   "how triangles are made: tessellation, grid or dice (tessellation where there is one)",
+                   {"tessellation", "grid", "dice"}),
            "PATH", "triangles");
     CLI::Option* rate = app.add_option("--rate", args.rate, "segments a cage edge, the same everywhere");
     listed(rate, "N", "triangles");

@@ -25,7 +25,7 @@ Show showOf(const std::string& word) {
 
 Path pathOf(const std::string& word, const Device& device) {
     if (word.empty()) return device.traits().hasTessellation ? Path::tessellation : Path::grid;
-    return word == "grid" ? Path::grid : Path::tessellation;
+    return word == "grid" ? Path::grid : word == "dice" ? Path::dice : Path::tessellation;
 }
 
 /// Points for framing: a coarse reference is enough.

@@ -7,6 +7,12 @@
 
 namespace relief {
 
+View viewOf(const Camera& camera, int height) {
+    return {.eye = vec3(camera.eye),
+            .nearDistance = float(camera.nearDistance),
+            .pixelsAtUnitDistance = float(height / (2 * std::tan(glm::radians(camera.fieldOfView) / 2)))};
+}
+
 dvec3 directionAt(double azimuth, double elevation) {
     const double a = glm::radians(azimuth), e = glm::radians(elevation);
     return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};

@@ -30,6 +30,9 @@ std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map
 /// A camera that holds all `points` with a small margin.
 Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, double aspect);
 
+/// What rates are measured from, for a picture of that many rows.
+View viewOf(const Camera& camera, int height);
+
 /// Unit vector at azimuth and elevation in degrees, from the origin towards that place.
 dvec3 directionAt(double azimuth, double elevation);
 
@@ -61,26 +64,21 @@ struct Material {
 
 enum class Show { shaded, normal, height, rate, faces, wireframe };
 
-struct RenderOptions {
-    Path path = Path::tessellation;
-    std::optional<int> rate; ///< segments a cage edge, the same for all ...
-    double edgePixels = 2;   ///< ... or as many as make segments this long on screen
-    NormalKind normal = NormalKind::full;
+struct RenderOptions : TriangleOptions {
     Show show = Show::shaded;
     Camera camera;
     Lighting lighting;
     Material material;
     Bounds bounds; ///< of the object: what the shadow map covers
-    /// Tessellation: vertices that one draw may make; default what suits the device.
-    std::optional<std::uint32_t> tessellatedVerticesPerDraw;
 };
 
 struct FrameStats {
     std::uint64_t triangleCount = 0, faceCount = 0;
     std::uint64_t vertexCount = 0; ///< distinct samples of the surface: what a dense mesh would store
     std::uint32_t drawCount = 0, maxRate = 0;
-    double rateMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0; ///< on the device; 0 where it cannot time
-    double wallMs = 0;                                         ///< rates to pixels on the host
+    /// On the device; 0 where it cannot time.
+    double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
+    double wallMs = 0; ///< rates to pixels on the host
 };
 
 /// Linear light, premultiplied alpha; for Show other than shaded, colors to be seen as they are.
@@ -107,6 +105,11 @@ public:
 
     /// Throws Failure::usage for a rate or path that the device cannot do.
     Picture render(const Model& model, const RenderOptions& options);
+
+    /// Pixels that see a crack, of a closed surface: front faces count up and back faces down along each line of sight,
+    /// which adds up to nothing however the surface folds. Before that, vertices whose position has bits of odd parity
+    /// move aside by `shift` (cage units), so that two samples that differ in the last place part visibly.
+    std::uint64_t crackPixels(const Model& model, const RenderOptions& options, const vec3& shift);
 
 private:
     struct Parts;

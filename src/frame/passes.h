@@ -14,6 +14,7 @@ mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
 
 constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16_SFLOAT;
 constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
+constexpr VkFormat kCrackFormat = VK_FORMAT_R16_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM; // even steps suit a parallel projection
 

@@ -83,6 +83,14 @@ std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
     return devices;
 }
 
+bool hasExtension(VkPhysicalDevice physical, std::string_view name) {
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::ranges::any_of(extensions, [&](const auto& e) { return name == e.extensionName; });
+}
+
 DeviceTraits traitsOf(VkPhysicalDevice physical) {
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
@@ -104,6 +112,9 @@ DeviceTraits traitsOf(VkPhysicalDevice physical) {
     traits.hasTessellation = features.tessellationShader == VK_TRUE;
     traits.hasWireframe = features.fillModeNonSolid == VK_TRUE;
     traits.maxTessellationLevel = traits.hasTessellation ? limits.maxTessellationGenerationLevel : 0;
+    traits.hasVertexStores = features.vertexPipelineStoresAndAtomics == VK_TRUE;
+    traits.hasTransformFeedback = hasExtension(physical, VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
+    traits.maxTexelBufferElements = limits.maxTexelBufferElements;
     traits.maxImageSide = limits.maxImageDimension2D;
     traits.maxDrawIndirectCount = features.multiDrawIndirect == VK_TRUE ? limits.maxDrawIndirectCount : 1;
     traits.timestampNanoseconds = limits.timestampComputeAndGraphics == VK_TRUE ? limits.timestampPeriod : 0;
@@ -245,6 +256,13 @@ void Device::makeDevice() {
     use.base.features.multiDrawIndirect = has.multiDrawIndirect;
     use.base.features.drawIndirectFirstInstance = has.drawIndirectFirstInstance;
     use.base.features.shaderInt64 = has.shaderInt64;
+    use.base.features.vertexPipelineStoresAndAtomics = has.vertexPipelineStoresAndAtomics;
+    // Optional: how certificates read tessellated triangles back.
+    VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback{
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT};
+    feedback.transformFeedback = VK_TRUE;
+    const char* const extension = VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME;
+    if (traits_.hasTransformFeedback) use.v13.pNext = &feedback;
     use.v12.bufferDeviceAddress = use.v12.scalarBlockLayout = VK_TRUE;
     use.v13.dynamicRendering = use.v13.synchronization2 = use.v13.maintenance4 = VK_TRUE;
 
@@ -257,6 +275,8 @@ void Device::makeDevice() {
     info.pNext = &use.base;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = traits_.hasTransformFeedback ? 1 : 0;
+    info.ppEnabledExtensionNames = &extension;
     checkVulkan(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     if (isValidating_)

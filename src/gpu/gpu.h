@@ -26,7 +26,10 @@ struct DeviceTraits {
     bool isCpu = false;
     bool hasTessellation = false;
     bool hasWireframe = false; ///< fillModeNonSolid
+    bool hasTransformFeedback = false;
+    bool hasVertexStores = false; ///< vertex stages may write to buffers
     std::uint32_t maxTessellationLevel = 0;
+    std::uint32_t maxTexelBufferElements = 0;
     std::uint32_t maxImageSide = 0;
     std::uint32_t maxDrawIndirectCount = 1;
     std::uint64_t heapBytes = 0; ///< the device-local heap
@@ -197,6 +200,8 @@ struct GraphicsDesc {
     PipelineLayoutDesc layout;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkPolygonMode polygonMode = VK_POLYGON_MODE_FILL;
+    bool drawsNothing = false;          ///< vertices alone: no rasterization
+    bool addsUp = false;                ///< colors are added, without depth
     bool pullsLinesForward = false;     ///< depth bias, for a wireframe over its own surface
     std::vector<VkFormat> colorFormats; ///< none: depth alone
     VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;

@@ -62,6 +62,7 @@ VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderM
 
 VkPipelineRasterizationStateCreateInfo rasterState(const GraphicsDesc& desc) {
     VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
+    raster.rasterizerDiscardEnable = desc.drawsNothing ? VK_TRUE : VK_FALSE;
     raster.polygonMode = desc.polygonMode;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
@@ -95,11 +96,14 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     samples.rasterizationSamples = desc.samples;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    depth.depthTestEnable = depth.depthWriteEnable = VK_TRUE;
+    depth.depthTestEnable = depth.depthWriteEnable = desc.addsUp ? VK_FALSE : VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    VkPipelineColorBlendAttachmentState replaces{};
-    replaces.colorWriteMask = 0xf;
-    const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colorFormats.size(), replaces);
+    VkPipelineColorBlendAttachmentState each{};
+    each.colorWriteMask = 0xf;
+    each.blendEnable = desc.addsUp ? VK_TRUE : VK_FALSE;
+    each.srcColorBlendFactor = each.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    each.srcAlphaBlendFactor = each.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colorFormats.size(), each);
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = std::uint32_t(attachments.size());
     blend.pAttachments = attachments.data();

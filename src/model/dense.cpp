@@ -4,7 +4,7 @@ namespace relief {
 
 DenseMesh denseMesh(const ReferenceSurface& surface, const HeightMap* map, int rate) {
     if (surface.sideCount() != 4) fail(Failure::usage, "a grid of four-sided faces is not to be had of triangles");
-    const std::vector<std::uint32_t> grid = gridIndices(std::uint32_t(rate), false);
+    const std::vector<std::uint32_t> grid = gridIndices(std::uint32_t(rate), std::uint32_t(rate));
     DenseMesh mesh;
     for (int face = 0; face < surface.faceCount(); ++face) {
         if (surface.isHole(face)) continue;

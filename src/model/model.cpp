@@ -2,7 +2,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "model/model.h"
+#include "model/dice_table.h"
+#include "model/stages.h"
 
 namespace relief {
 namespace {
@@ -57,17 +58,6 @@ AlbedoMips albedoMips(const Image& image) {
     return mips;
 }
 
-/// Appends records as words, each padded to its texels; returns the texel that they start at.
-template <typename Record, std::uint32_t kTexels>
-std::uint32_t appendRecords(std::vector<std::uint32_t>& words, const std::vector<Record>& records) {
-    static_assert(sizeof(Record) <= 16 * kTexels);
-    const std::size_t first = words.size();
-    words.resize(first + records.size() * 4 * kTexels);
-    for (std::size_t i = 0; i < records.size(); ++i)
-        std::memcpy(&words[first + i * 4 * kTexels], &records[i], sizeof(Record));
-    return std::uint32_t(first / 4);
-}
-
 Texture emptyTexture(Device& device, VkFormat format) {
     const std::byte one[4] = {std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}};
     return uploadTexture(device, {.name = "empty", .format = format}, one, 4);
@@ -88,11 +78,11 @@ Model::Model(Device& device, const ModelDesc& desc) {
 void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     const Surface& s = *desc.surface;
     std::vector<std::uint32_t> records;
-    firstFace_ = appendRecords<Face, kFaceTexels>(records, s.faces);
-    firstPatch_ = appendRecords<Patch, kPatchTexels>(records, s.patches);
-    firstEdge_ = appendRecords<Edge, kEdgeTexels>(records, s.edges);
-    firstCorner_ = appendRecords<Corner, kCornerTexels>(records, s.corners);
-    firstTouch_ = appendRecords<Touch, kTouchTexels>(records, s.touches);
+    firstFace_ = appendRecords<kFaceTexels>(records, s.faces);
+    firstPatch_ = appendRecords<kPatchTexels>(records, s.patches);
+    firstEdge_ = appendRecords<kEdgeTexels>(records, s.edges);
+    firstCorner_ = appendRecords<kCornerTexels>(records, s.corners);
+    firstTouch_ = appendRecords<kTouchTexels>(records, s.touches);
     records_ =
         uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records)));
 
@@ -109,8 +99,11 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     texPoints_ = uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT,
                               std::as_bytes(std::span(s.texPoints)));
     mesh_ = uploadTexels(device, {.name = "no mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
+    meshTexCoords_ = uploadTexels(device, {.name = "no mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, {});
     faces_ = s.faces;
-    cornerCount_ = s.corners.size();
+    edges_ = s.edges;
+    tree_ = s.tree;
+    for (const Corner& corner : s.corners) cornerFlags_.push_back(corner.flags);
     sideCount_ = s.sideCount;
     hasTexCoords_ = s.hasTexCoords();
     edgeIsHalf_.assign(s.edges.size(), false);
@@ -127,12 +120,13 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
 void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     std::vector<vec4> vertices;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        vertices.emplace_back(mesh.positions[i], 1.0f);
+        vertices.emplace_back(mesh.positions[i], 0.0f); // no height
         vertices.emplace_back(mesh.normals[i], 0.0f);
     }
     mesh_ = uploadTexels(device, {.name = "mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(vertices)));
-    texPoints_ = uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT,
-                              std::as_bytes(std::span(mesh.texCoords)));
+    meshTexCoords_ = uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT,
+                                  std::as_bytes(std::span(mesh.texCoords)));
+    texPoints_ = uploadTexels(device, {.name = "no texture points"}, VK_FORMAT_R32G32_SFLOAT, {});
     points_ = uploadTexels(device, {.name = "no points"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
     records_ = uploadTexels(device, {.name = "no records"}, VK_FORMAT_R32G32B32A32_UINT, {});
     words_ = uploadTexels(device, {.name = "no words"}, VK_FORMAT_R32_UINT, {});
@@ -186,6 +180,7 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     bindings[kBindPoints].texels = points_.view.get();
     bindings[kBindTexPoints].texels = texPoints_.view.get();
     bindings[kBindMesh].texels = mesh_.view.get();
+    bindings[kBindMeshTexCoords].texels = meshTexCoords_.view.get();
     bindings[kBindHeight].view = heightMap_.view.get();
     bindings[kBindAlbedo].view = albedoMap_.view.get();
     scene.mapSize = mapSize_;
@@ -196,9 +191,9 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     scene.edgeCount = std::uint32_t(edgeIsHalf_.size());
 }
 
-std::vector<std::uint32_t> Model::uniformRates(std::uint32_t rate) const {
-    std::vector<std::uint32_t> rates(edgeIsHalf_.size());
-    for (std::size_t e = 0; e < rates.size(); ++e) rates[e] = edgeIsHalf_[e] ? (rate + 1) / 2 : rate;
+std::vector<float> Model::uniformRates(float rate) const {
+    std::vector<float> rates(edgeIsHalf_.size());
+    for (std::size_t e = 0; e < rates.size(); ++e) rates[e] = edgeIsHalf_[e] ? std::ceil(rate / 2) : rate;
     return rates;
 }
 

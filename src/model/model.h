@@ -1,7 +1,7 @@
 // A displaced surface on the device, and the triangles made of it: rates, plans of draws, single points.
 #pragma once
 
-#include <map>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -26,24 +26,31 @@ struct ModelDesc {
     const Image* albedo = nullptr;    ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
+struct DiceTable;
+
 /// What the device holds of a cage (or a dense mesh): flat arrays and maps. The desc may go away afterwards.
 class Model {
 public:
     Model(Device& device, const ModelDesc& desc);
+    ~Model();
 
     /// Fills the model's part of a scene and of its bindings (kBind...; the samplers of images are not touched).
     void describe(Scene& scene, std::span<Binding> bindings) const;
-    /// Segments of every edge when a cage edge has `rate`: half of it, rounded up, for the halves of edges beside
+    /// Rates of all edges when a cage edge has `rate` segments: half of it, rounded up, for the halves of edges beside
     /// n-gons.
-    [[nodiscard]] std::vector<std::uint32_t> uniformRates(std::uint32_t rate) const;
+    [[nodiscard]] std::vector<float> uniformRates(float rate) const;
 
     [[nodiscard]] bool isDense() const { return isDense_; }
     [[nodiscard]] const Buffer& indices() const { return indices_; } ///< of a dense mesh
     [[nodiscard]] std::uint32_t indexCount() const { return indexCount_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; } ///< of a dense mesh
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
-    [[nodiscard]] std::size_t edgeCount() const { return edgeIsHalf_.size(); }
-    [[nodiscard]] std::size_t cornerCount() const { return cornerCount_; }
+    [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& tree() const { return tree_; } ///< as Surface::tree
+    /// Which vertices a diced mesh has; made when first asked for.
+    [[nodiscard]] const DiceTable& diceTable(Device& device) const;
+    [[nodiscard]] std::size_t cornerCount() const { return cornerFlags_.size(); }
+    [[nodiscard]] const std::vector<std::uint32_t>& cornerFlags() const { return cornerFlags_; } ///< kPlace...
     [[nodiscard]] int sideCount() const { return sideCount_; }
     [[nodiscard]] bool isTriangles() const { return sideCount_ == 3; }
     [[nodiscard]] bool hasTexCoords() const { return hasTexCoords_; }
@@ -58,14 +65,17 @@ private:
     void uploadDense(Device& device, const DenseMesh& mesh);
     void uploadMaps(Device& device, const ModelDesc& desc);
 
-    TexelBuffer records_, words_, points_, texPoints_, mesh_;
+    TexelBuffer records_, words_, points_, texPoints_, mesh_, meshTexCoords_;
     Buffer indices_;
     Texture heightMap_, albedoMap_;
     std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstTouch_ = 0;
     std::uint32_t firstPatchPoint_ = 0, firstTexPatchPoint_ = 0;
     std::vector<Face> faces_;
+    std::vector<Edge> edges_;
+    std::vector<std::uint32_t> tree_;
+    mutable std::unique_ptr<DiceTable> diceTable_;
     std::vector<bool> edgeIsHalf_;
-    std::size_t cornerCount_ = 0;
+    std::vector<std::uint32_t> cornerFlags_;
     std::uint32_t indexCount_ = 0, vertexCount_ = 0;
     int sideCount_ = 4;
     glm::ivec2 mapSize_{0};
@@ -75,30 +85,141 @@ private:
     std::uint64_t byteCount_ = 0;
 };
 
-// --- triangles ----------------------------------------------------------------------------------------------------
+// --- rates --------------------------------------------------------------------------------------------------------
 
-enum class Path { tessellation, grid }; ///< ways to make the triangles; dense meshes have their own
+enum class Path { tessellation, grid, dice }; ///< ways to make the triangles; dense meshes have their own
+enum class Spacing { equal, fractional };
 enum class NormalKind { limit, firstOrder, full };
+
+struct TriangleOptions {
+    Path path = Path::tessellation;
+    std::optional<int> rate; ///< segments a cage edge, the same for all ...
+    double edgePixels = 2;   ///< ... or as many as make segments this long on screen
+    Spacing spacing = Spacing::equal;
+    NormalKind normal = NormalKind::full;
+    /// Tessellation: vertices that one draw may make; default what suits the device.
+    std::optional<std::uint32_t> tessellatedVerticesPerDraw;
+    std::optional<std::uint64_t> memory; ///< dicing: bytes that a mesh may take; default half of the device's heap
+};
+
+/// What rates are measured from.
+struct View {
+    vec3 eye{0};
+    float nearDistance = 0;
+    float pixelsAtUnitDistance = 1; ///< of something one unit long at one unit's distance
+};
+
+/// One rate an edge: whole numbers of segments, or with fractional spacing any number from 1.
+struct EdgeRates {
+    std::vector<float> rates;
+    Spacing spacing = Spacing::equal;
+
+    [[nodiscard]] std::uint32_t segments(std::uint32_t edge) const;
+};
+
+/// Measures displaced edges on the device. Shaders are compiled once for a kind of model.
+class EdgeRater {
+public:
+    explicit EdgeRater(Device& device);
+    ~EdgeRater();
+
+    /// Throws Failure::usage for a rate or path that the device cannot do. `milliseconds`: device time, if measured.
+    EdgeRates rates(const Model& model, const TriangleOptions& options, const View& view,
+                    double* milliseconds = nullptr);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// Segments around and inside a face.
+struct FaceSegments {
+    std::uint32_t sides[4] = {};
+    std::uint32_t u = 1, v = 1; ///< along u and v; of a triangle both the largest
+    float largestRate = 1;
+};
+FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint32_t face);
+
+// --- draws --------------------------------------------------------------------------------------------------------
 
 /// Faces drawn together, and the calls that draw them.
 struct DrawBatch {
-    std::uint32_t rate = 0;                     ///< grid: segments a side of every face in it
+    std::uint32_t columns = 0, rows = 0;        ///< grid: segments along u and v of every face in it
     std::uint32_t firstFace = 0, faceCount = 0; ///< into DrawPlan::faces
 };
 
 struct DrawPlan {
     std::vector<std::uint32_t> faces;
     std::vector<DrawBatch> batches;
-    std::uint64_t triangleCount = 0, vertexCount = 0;
+    std::uint64_t triangleCount = 0;
+    std::uint64_t vertexCount = 0; ///< distinct samples of the surface
     std::uint32_t maxRate = 0;
 };
 
 /// Splits faces into draws of at most `verticesPerDraw` tessellated vertices, in order of faces.
-DrawPlan planPatches(const Model& model, std::span<const std::uint32_t> edgeRates, std::uint32_t verticesPerDraw);
-/// Groups faces by their largest side rate.
-DrawPlan planGrids(const Model& model, std::span<const std::uint32_t> edgeRates);
-/// Triangles that the fixed-function tessellator makes of one patch with these side rates (3 or 4 of them).
+DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw);
+/// Groups faces by their segments along u and v.
+DrawPlan planGrids(const Model& model, const EdgeRates& rates);
+/// Triangles that the fixed-function tessellator, or the dicer, makes of one patch with these side rates (3 or 4 of
+/// them).
 std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> sideRates);
+std::uint64_t dicedTriangles(std::span<const std::uint32_t> sideRates);
+
+// --- diced meshes -------------------------------------------------------------------------------------------------
+
+/// An indexed mesh on the device: every distinct sample of the surface once, repeated with the same position bits only
+/// where normals or texture coordinates part.
+struct DicedMesh {
+    TexelBuffer vertices;                      ///< two texels each: position and height, normal
+    TexelBuffer texCoords;                     ///< empty unless asked for
+    Buffer indices;                            ///< three 32-bit indices a triangle, face after face
+    std::vector<std::uint32_t> firstTriangles; ///< of each face; one more at the end
+    std::vector<std::uint32_t> faceRates;      ///< the largest around each face
+    std::vector<std::uint32_t> runFirsts;      ///< first vertex of each run along edges; one more at the end
+    std::uint64_t sampleCount = 0;             ///< distinct samples
+    std::uint32_t vertexCount = 0, triangleCount = 0, maxRate = 0;
+    std::uint64_t byteCount = 0;
+    double milliseconds = 0; ///< on the device; 0 where it cannot time
+};
+
+struct DiceOptions {
+    NormalKind normal = NormalKind::full;
+    bool wantsTexCoords = false;
+    std::optional<std::uint64_t> memory;
+};
+
+class Dicer {
+public:
+    explicit Dicer(Device& device);
+    ~Dicer();
+
+    /// Throws Failure::device when the mesh would take more than the memory allowed, before anything is allocated.
+    DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
+    /// The same read back: ready to be written.
+    DenseMesh diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
+
+    struct Parts;
+
+private:
+    std::unique_ptr<Parts> parts_;
+};
+
+// --- captured triangles -------------------------------------------------------------------------------------------
+
+/// The triangles that a path makes, as the device made them.
+struct CapturedMesh {
+    std::vector<vec3> positions;
+    std::vector<char> isOnBoundary;     ///< one a vertex: it lies on an edge of the cage that has one drawn face
+    std::vector<std::uint32_t> indices; ///< three a triangle
+};
+
+/// Tessellation: by transform feedback (Failure::usage where the device has none); grid: stored by the vertex shader;
+/// dice: read back.
+CapturedMesh captureTriangles(Device& device, const Model& model, const TriangleOptions& options,
+                              const EdgeRates& rates);
+
+/// Segments of all edges of the cage that have one drawn face.
+std::uint64_t boundarySegments(const Model& model, const EdgeRates& rates);
 
 // --- single points ------------------------------------------------------------------------------------------------
 
@@ -112,19 +233,15 @@ struct SampleOptions {
 class SurfaceSampler {
 public:
     explicit SurfaceSampler(Device& device);
+    ~SurfaceSampler();
 
     /// Throws Failure::input for a face out of range, a hole, or (u,v) outside its face.
     std::vector<SampleResult> sample(const Model& model, std::span<const SampleQuery> queries,
                                      const SampleOptions& options = {});
 
 private:
-    const Pipeline& pipelineOf(const Model& model, const SampleOptions& options);
-
-    Device& device_;
-    Owned<VkSampler> sampler_;
-    Buffer scene_;
-    TexelBuffer none_;
-    std::map<std::vector<std::uint32_t>, Pipeline> pipelines_;
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
 };
 
 } // namespace relief

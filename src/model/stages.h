@@ -1,14 +1,20 @@
 // What every shader stage is given: constants, push constants, set 0. Used here and by frame.
 #pragma once
 
+#include <cstring>
+#include <map>
+
 #include "model/model.h"
 #include "model/shaders.h"
 
 namespace relief {
 
+/// The block in scene.glsl.
 struct PushConstants {
     std::uint32_t passNumber = 0;
     std::uint32_t drawsShadow = 0;
+    std::uint32_t passRows = 0;
+    std::uint32_t passFirst = 0;
 };
 
 /// Set 0 of every pass (kBind...).
@@ -38,7 +44,52 @@ TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const
 Buffer makeSceneBuffer(Device& device);
 void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene);
 
-/// Two triangles a cell (one in the last of a triangle's row) over a grid of n segments a side.
-std::vector<std::uint32_t> gridIndices(std::uint32_t n, bool isTriangles);
+/// Appends records as words, each padded to its texels; returns the texel that they start at.
+template <std::uint32_t kTexels, typename Record>
+std::uint32_t appendRecords(std::vector<std::uint32_t>& words, const std::vector<Record>& records) {
+    static_assert(sizeof(Record) <= 16 * kTexels);
+    const std::size_t first = words.size();
+    words.resize(first + records.size() * 4 * kTexels);
+    for (std::size_t i = 0; i < records.size(); ++i)
+        std::memcpy(&words[first + i * 4 * kTexels], &records[i], sizeof(Record));
+    return std::uint32_t(first / 4);
+}
+
+/// Passes that make no picture: everything of a scene and of set 0 up to the samples of a picture.
+class GeometryInputs {
+public:
+    explicit GeometryInputs(Device& device);
+
+    static PipelineLayoutDesc layout();
+    /// Describes the model; what it does not fill is bound all the same: Mesa 22.3's CPU driver walks every descriptor
+    /// of a set, whether or not a shader reads it.
+    void fill(const Model& model, Scene& scene, std::span<Binding> bindings) const;
+    const Buffer& scene() const { return scene_; }
+
+private:
+    Buffer scene_;
+    TexelBuffer none_;
+    Owned<VkSampler> sampler_;
+};
+
+/// Compute pipelines by shader and constants, made when first asked for.
+class ComputeStages {
+public:
+    explicit ComputeStages(Device& device) : device_(device) {}
+    const Pipeline& pipeline(const char* file, const Model& model, const ShaderConstants& constants);
+
+private:
+    Device& device_;
+    std::map<std::pair<std::string, std::vector<std::uint32_t>>, Pipeline> pipelines_;
+};
+
+inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
+    return {.hasTexCoords = model.hasTexCoords(), .hasHeight = model.hasHeight(), .normal = normal};
+}
+
+/// Two triangles a cell, row after row: the first rows of a larger grid with as many columns.
+std::vector<std::uint32_t> gridIndices(std::uint32_t columns, std::uint32_t rows);
+/// The same for triangles with n segments a side: one triangle in the last cell of a row.
+std::vector<std::uint32_t> triangleGridIndices(std::uint32_t n);
 
 } // namespace relief

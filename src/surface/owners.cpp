@@ -16,6 +16,11 @@
 namespace relief {
 namespace {
 
+/// Whether the faces of an edge agree on a direction there, and whether their texture coordinates part.
+struct EdgeKind {
+    bool isAgreed, isSeam;
+};
+
 /// Side `side` of the cage's face `face`.
 struct SideUse {
     int face;
@@ -25,7 +30,7 @@ struct SideUse {
 class OwnerBuilder {
 public:
     OwnerBuilder(Surface& surface, const FarTables& tables, const Cage& cage)
-        : surface_(surface), level_(tables.refiner->GetLevel(0)), ptex_(*tables.refiner),
+        : surface_(surface), cage_(cage), level_(tables.refiner->GetLevel(0)), ptex_(*tables.refiner),
           isBilinear_(surface.scheme == Scheme::bilinear), sharpLimit_(sharpLimit(cage, tables.isolation)) {}
 
     void build() {
@@ -40,6 +45,7 @@ public:
         }
         for (int face = 0; face < level_.GetNumFaces(); ++face)
             if (!level_.IsFaceHole(face) && isNgon(face)) addInside(face);
+        markBoundary();
     }
 
 private:
@@ -74,11 +80,26 @@ private:
                std::any_of(edges.begin(), edges.end(), [&](int edge) { return isAgreedEdge(edge); });
     }
 
+    /// True when two faces of the edge have texture coordinates of their own at one of its ends.
+    [[nodiscard]] bool isSeam(const std::vector<SideUse>& uses) const {
+        if (!cage_.hasTexCoords()) return false;
+        const auto texCorner = [&](const SideUse& use, int vertex) {
+            const int corner = startVertex(use) == vertex ? use.side : (use.side + 1) % sizeOf(use.face);
+            return cage_.texCorners[firstCorners_[use.face] + std::size_t(corner)];
+        };
+        const int start = startVertex(uses.front()), end = endVertex(uses.front());
+        return std::any_of(uses.begin(), uses.end(), [&](const SideUse& use) {
+            return texCorner(use, start) != texCorner(uses.front(), start) ||
+                   texCorner(use, end) != texCorner(uses.front(), end);
+        });
+    }
+
     // A face that runs along two vertices twice has two edges there: the first stands for both.
     void gatherUses() {
         uses_.resize(level_.GetNumEdges());
         surface_.isClosed = true;
         for (int face = 0; face < level_.GetNumFaces(); ++face) {
+            firstCorners_.push_back(face == 0 ? 0 : firstCorners_.back() + std::size_t(sizeOf(face - 1)));
             const bool isHole = level_.IsFaceHole(face);
             surface_.isClosed = surface_.isClosed && !isHole;
             for (int side = 0; side < sizeOf(face); ++side) {
@@ -95,7 +116,7 @@ private:
     /// Adds a corner that belongs to the lowest face.
     std::uint32_t addCorner(std::vector<Touch>& touches, bool isAgreed) {
         sortByFace(touches);
-        Corner corner{touches.front(), std::uint32_t(surface_.touches.size()), 0};
+        Corner corner{touches.front(), std::uint32_t(surface_.touches.size()), 0, 0};
         if (isAgreed) corner.touchCount = addTouches(touches);
         surface_.corners.push_back(corner);
         return std::uint32_t(surface_.corners.size() - 1);
@@ -148,10 +169,12 @@ private:
 
     /// Adds an edge whose first touch is its owner.
     void addEdge(std::vector<Touch> touches, std::uint32_t start, std::uint32_t end, std::uint32_t partner,
-                 bool isAgreed) {
-        Edge edge{touches.front(), {start, end}, std::uint32_t(surface_.touches.size()), 0, partner};
+                 const EdgeKind& kind) {
+        Edge edge{touches.front(), {start, end}, std::uint32_t(surface_.touches.size()), 0, partner, 0};
+        if (touches.size() == 1) edge.flags |= kPlaceOnBoundary;
+        if (kind.isSeam) edge.flags |= kPlaceOnSeam;
         sortByFace(touches);
-        if (isAgreed) edge.touchCount = addTouches(touches);
+        if (kind.isAgreed) edge.touchCount = addTouches(touches);
         surface_.edges.push_back(edge);
     }
 
@@ -168,7 +191,7 @@ private:
             setSide(touch, edge, isReversed);
         }
         addEdge(touches, cornerOfVertex_[start], cornerOfVertex_[endVertex(uses.front())], edge,
-                isAgreedEdge(cageEdge));
+                {isAgreedEdge(cageEdge), isSeam(uses)});
     }
 
     /// Half 0 or 1 of a side in the direction of its face.
@@ -181,9 +204,9 @@ private:
 
     void addSplitEdge(int cageEdge) {
         const auto& uses = uses_[cageEdge];
-        const bool isAgreed = isAgreedEdge(cageEdge);
+        const EdgeKind kind{isAgreedEdge(cageEdge), isSeam(uses)};
         const int start = startVertex(uses.front());
-        const std::uint32_t middle = addMiddleCorner(uses, isAgreed);
+        const std::uint32_t middle = addMiddleCorner(uses, kind.isAgreed);
         const std::uint32_t ends[] = {cornerOfVertex_[start], middle, cornerOfVertex_[endVertex(uses.front())]};
         const auto first = std::uint32_t(surface_.edges.size());
         for (int half = 0; half < 2; ++half) {
@@ -198,7 +221,7 @@ private:
                 else
                     setSide(touch, first, isReversed, kSideSplit);
             }
-            addEdge(touches, ends[half], ends[half + 1], first + 1 - half, isAgreed);
+            addEdge(touches, ends[half], ends[half + 1], first + 1 - half, kind);
         }
     }
 
@@ -224,21 +247,29 @@ private:
             setSide(outward, edge, isInward);
             if (isInward) {
                 std::swap(outward.start, outward.end);
-                addEdge({inward, outward}, middle, center, edge, isBilinear_);
+                addEdge({inward, outward}, middle, center, edge, {isBilinear_, false});
             } else {
                 std::swap(inward.start, inward.end);
-                addEdge({outward, inward}, center, middle, edge, isBilinear_);
+                addEdge({outward, inward}, center, middle, edge, {isBilinear_, false});
             }
         }
     }
 
+    void markBoundary() {
+        for (const Edge& edge : surface_.edges)
+            if ((edge.flags & kPlaceOnBoundary) != 0)
+                for (const std::uint32_t corner : edge.corners) surface_.corners[corner].flags |= kPlaceOnBoundary;
+    }
+
     Surface& surface_;
+    const Cage& cage_;
     const Far::TopologyLevel& level_;
     Far::PtexIndices ptex_;
     bool isBilinear_;
     float sharpLimit_;                       ///< edges and vertices sharper than this stay sharp in the limit
     std::vector<std::vector<SideUse>> uses_; ///< drawn faces on each edge of the cage, in index order
     std::vector<std::uint32_t> cornerOfVertex_;
+    std::vector<std::size_t> firstCorners_; ///< of each face, into the cage's corners
 };
 
 } // namespace

@@ -159,7 +159,7 @@ TEST_F(Pictures, areDrawnInBatchesThatSuitTheDevice) {
     const Cage cage = torusWithSeams();
     const Surface surface = buildSurface(cage, {.isolation = 2});
     const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
-    const DrawPlan plan = planPatches(model, model.uniformRates(9), 1000); // 100 vertices a face
+    const DrawPlan plan = planPatches(model, {model.uniformRates(9)}, 1000); // 100 vertices a face
     EXPECT_EQ(plan.faces.size(), 48u);
     EXPECT_EQ(plan.batches.size(), 5u);
     EXPECT_EQ(plan.triangleCount, 48u * 2 * 81);

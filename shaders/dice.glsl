@@ -1,0 +1,40 @@
+// What the dicing shaders share.
+#ifndef RELIEF_DICE_GLSL
+#define RELIEF_DICE_GLSL
+
+#include "scene.glsl"
+#include "shared/dice.h"
+
+layout(set = 0, binding = kBindDiceTable) uniform usamplerBuffer diceTable;
+layout(set = 0, binding = kBindDiceTiles) uniform usamplerBuffer diceTiles;
+layout(set = 0, binding = kBindDiceFirsts) uniform usamplerBuffer diceFirsts;
+
+uvec4 tableTexel(uint i) { return texelFetch(diceTable, int(i)); }
+uvec4 tileTexel(uint i) { return texelFetch(diceTiles, int(i)); }
+uint firstVertexOf(uint run) { return texelFetch(diceFirsts, int(run)).x; }
+
+VertexRun fetchRun(uint i) {
+    uvec4 a = tableTexel(kRunTexels * i), b = tableTexel(kRunTexels * i + 1u);
+    return VertexRun(touchOf(a), b.x, b.y);
+}
+
+FaceRuns fetchFaceRuns(uint face) {
+    uint first = scene.firstFaceRuns + kFaceRunsTexels * face;
+    uvec4 a = tableTexel(first), b = tableTexel(first + 1u), c = tableTexel(first + 2u), d = tableTexel(first + 3u);
+    return FaceRuns(uint[4](a.x, a.y, a.z, a.w), uint[4](b.x, b.y, b.z, b.w),
+                    uint[8](c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w));
+}
+
+InsideTile fetchInsideTile(uint i) {
+    uvec4 a = tileTexel(kInsideTileTexels * i), b = tileTexel(kInsideTileTexels * i + 1u);
+    return InsideTile(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
+}
+
+uvec2 halvesOf(uint packed) { return uvec2(packed & 0xffffu, packed >> 16); }
+
+void storeVertex(uint vertex, vec3 q, float h, vec3 normal, vec2 st, bool hasTexCoords) {
+    scene.dicedVertices.at[2u * vertex] = vec4(q, h);
+    scene.dicedVertices.at[2u * vertex + 1u] = vec4(normal, 0.0);
+    if (hasTexCoords) scene.dicedTexCoords.at[vertex] = st;
+}
+#endif

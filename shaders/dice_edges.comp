@@ -1,0 +1,35 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "dice.glsl"
+#include "displaced.glsl"
+
+// The samples on corners and edges, an invocation a vertex, each evaluated at its owner.
+layout(local_size_x = kDiceGroup) in;
+
+// The run that holds a vertex: corners come first, each a run of one; the others by halving.
+uint runOf(uint vertex) {
+    if (vertex < scene.cornerRunCount) return vertex;
+    uint low = scene.cornerRunCount, high = scene.runCount;
+    while (high - low > 1u) {
+        uint middle = (low + high) / 2u;
+        if (firstVertexOf(middle) <= vertex) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+void main() {
+    uint vertex = (passFirst + gl_WorkGroupID.x) * kDiceGroup + gl_LocalInvocationID.x;
+    if (vertex >= passNumber) return;
+    uint index = runOf(vertex);
+    VertexRun run = fetchRun(index);
+    Place place;
+    if (run.isCorner != 0u) {
+        place = cornerPlace(run.place);
+    } else {
+        float rate = edgeRate(run.place);
+        place = edgePlace(run.place, vertex - firstVertexOf(index) + 1u, segmentsOf(rate, scene.isFractional), rate);
+    }
+    DisplacedSample s = displaced(run.touch.face, touchPoint(run.touch, place.t), place);
+    storeVertex(vertex, s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
+}

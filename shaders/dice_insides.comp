@@ -1,0 +1,82 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "dice.glsl"
+
+// The samples inside faces, a workgroup a tile. All samples of a tile lie in one leaf patch, so the control points are fetched
+// once and shared: on CPU drivers the loads that follow have constant addresses and serve all lanes at once.
+layout(local_size_x = kDiceGroup) in;
+
+#ifndef RELIEF_TRIANGLES
+shared vec3 tilePoints[20];
+shared vec2 tileTexPoints[20];
+
+vec3 tilePoint(uint i) { return tilePoints[i]; }
+vec2 tileTexPoint(uint i) { return tileTexPoints[i]; }
+#define RELIEF_PATCH_POINT tilePoint
+#define RELIEF_TEX_PATCH_POINT tileTexPoint
+#endif
+#include "displaced.glsl"
+
+vec2 insidePoint(InsideTile tile, uvec2 ij) {
+    uvec2 segments = halvesOf(tile.segments);
+    if (scene.isFractional == 0u) return vec2(ij) / vec2(segments);
+    Face record = fetchFace(tile.face);
+    float rates[kSideCount];
+    for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]).rate;
+#ifdef RELIEF_TRIANGLES
+    float rate = max(rates[0], max(rates[1], rates[2])), n = float(segments.x);
+    vec3 c = vec3(n - float(ij.x + ij.y), ij) / n;
+    c = vec3(spaced(c.x, n, rate), spaced(c.y, n, rate), spaced(c.z, n, rate));
+    return c.yz / (c.x + c.y + c.z);
+#else
+    return vec2(sampleParameter(ij.x, segments.x, max(rates[0], rates[2])),
+                sampleParameter(ij.y, segments.y, max(rates[1], rates[3])));
+#endif
+}
+
+#ifdef RELIEF_TRIANGLES
+
+// Number of inner sample (i,j) of a triangle with n segments a side: rows of n - 2, n - 3, ... samples.
+uint insideIndex(uvec2 ij, uint n) { return (ij.y - 1u) * (n - 2u) - (ij.y - 1u) * (ij.y - 2u) / 2u + ij.x - 1u; }
+
+void main() {
+    InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
+    uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
+    uint n = halvesOf(tile.segments).x;
+    for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += kDiceGroup) {
+        uvec2 ij = first + uvec2(k % size.x, k / size.x);
+        if (ij.x + ij.y >= n) continue;
+        vec2 uv = insidePoint(tile, ij);
+        DisplacedSample s = displaced(tile.face, uv, insidePlace(tile.face, uv));
+        storeVertex(tile.firstVertex + insideIndex(ij, n), s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
+    }
+}
+
+#else
+
+void loadTile(Patch patch_) {
+    uint lane = gl_LocalInvocationID.x;
+    if (lane < patchSize(patch_.type)) tilePoints[lane] = patchPoint(patch_.firstPoint + lane);
+    if (kHasTexCoords && lane < patchSize(patch_.texType))
+        tileTexPoints[lane] = texPatchPoint(patch_.texFirstPoint + lane);
+    barrier();
+}
+
+void main() {
+    InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
+    Patch patch_ = fetchPatch(tile.patchIndex);
+    loadTile(patch_);
+    patch_.firstPoint = patch_.texFirstPoint = 0u;
+    uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
+    float scale = float(1u << tile.depth);
+    vec2 origin = vec2(halvesOf(tile.origin));
+    for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += kDiceGroup) {
+        uvec2 ij = first + uvec2(k % size.x, k / size.x);
+        vec2 uv = insidePoint(tile, ij);
+        DisplacedSample s = displacedInLeaf(patch_, Leaf(tile.patchIndex, scale * uv - origin, scale), uv);
+        uint row = halvesOf(tile.segments).x - 1u;
+        storeVertex(tile.firstVertex + (ij.y - 1u) * row + ij.x - 1u, s.q, s.h, s.normal, s.st,
+                    kHasTexCoords && kWantsTexCoords);
+    }
+}
+#endif

@@ -1,0 +1,160 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "dice.glsl"
+#include "places.glsl"
+
+// The triangles between the samples, a workgroup a tile. Each side is a ring of triangles that joins the r segments of the edge
+// to the segments of the inner samples beside it, as the fixed-function tessellator does; within are cells.
+//
+//   inner samples     +---+---+---+         a segment of the edge takes the inner sample after as many inner segments
+//                    / \ / \ /|  \          as have their middles before its own, and an inner segment likewise:
+//   the edge        +---+----+----+         the two orders merge, and every triangle is known without the others
+layout(local_size_x = kDiceGroup) in;
+
+// Vertex of sample k of a side with r segments, in the side's direction.
+uint sideVertex(FaceRuns runs, uint side, uint entry, uint k, uint r) {
+    if (k == 0u) return runs.corners[side];
+    if (k == r) return runs.corners[(side + 1u) % kSideCount];
+    if ((entry & kSideReversed) != 0u) k = r - k;
+    uint half_ = 0u;
+    if ((entry & kSideSplit) != 0u) {
+        r /= 2u;
+        if (k == r) return runs.middles[side];
+        if (k > r) {
+            k -= r;
+            half_ = 1u;
+        }
+    }
+    return firstVertexOf(runs.sides[2u * side + half_]) + k - 1u;
+}
+
+// The middle of inner segment i is at (2 i + kInnerStart) / 2n of the side; rows of a triangle start half a segment later.
+#ifdef RELIEF_TRIANGLES
+const uint kInnerStart = 4u;
+#else
+const uint kInnerStart = 3u;
+#endif
+
+// Inner segments, of l, whose middles lie before that of the edge's segment k of r.
+uint innerBefore(uint k, uint r, uint l, uint n) {
+    uint x = (2u * k + 1u) * n;
+    return x > kInnerStart * r ? min((x - (kInnerStart - 2u) * r - 1u) / (2u * r), l) : 0u;
+}
+
+// Segments of the edge, of r, whose middles lie before or at that of inner segment i.
+uint outerBefore(uint i, uint r, uint n) { return min(((2u * i + kInnerStart) * r + n) / (2u * n), r); }
+
+void storeTriangle(uint triangle, uint a, uint b, uint c) {
+    scene.dicedIndices.at[3u * triangle] = a;
+    scene.dicedIndices.at[3u * triangle + 1u] = b;
+    scene.dicedIndices.at[3u * triangle + 2u] = c;
+}
+
+#ifdef RELIEF_TRIANGLES
+
+// Inner samples: the lattice of n segments a side without its border, at least the centre of n = 3.
+uint insideVertex(TriangleTile tile, uint n, uint i, uint j) {
+    return tile.firstVertex + (j - 1u) * (n - 2u) - (j - 1u) * (j - 2u) / 2u + i - 1u;
+}
+
+uint innerOf(TriangleTile tile, uint side, uvec2 n, uint i) {
+    uint last = n.x - 2u;
+    return side == 0u ? insideVertex(tile, n.x, 1u + i, 1u)
+           : side == 1u ? insideVertex(tile, n.x, last - i, 1u + i) : insideVertex(tile, n.x, 1u, last - i);
+}
+
+uint innerSegments(uint side, uvec2 n) { return n.x - 3u; }
+
+// Cell triangles of the inner lattice, of n - 3 segments a side, row by row: row y has 2 (m - y) - 1 of them.
+void cellTriangle(TriangleTile tile, uvec2 n, uint t, uint triangle) {
+    uint m = n.x - 3u, y = 0u;
+    while (t >= 2u * (m - y) - 1u) {
+        t -= 2u * (m - y) - 1u;
+        ++y;
+    }
+    uint i = t / 2u + 1u, j = y + 1u;
+    if (t % 2u == 0u)
+        storeTriangle(triangle, insideVertex(tile, n.x, i, j), insideVertex(tile, n.x, i + 1u, j), insideVertex(tile, n.x, i, j + 1u));
+    else
+        storeTriangle(triangle, insideVertex(tile, n.x, i + 1u, j), insideVertex(tile, n.x, i + 1u, j + 1u),
+                      insideVertex(tile, n.x, i, j + 1u));
+}
+#else
+
+uint insideVertex(TriangleTile tile, uvec2 n, uint i, uint j) { return tile.firstVertex + (j - 1u) * (n.x - 1u) + i - 1u; }
+
+// Inner sample i beside a side, in the side's direction.
+uint innerOf(TriangleTile tile, uint side, uvec2 n, uint i) {
+    return side == 0u   ? insideVertex(tile, n, 1u + i, 1u)
+           : side == 1u ? insideVertex(tile, n, n.x - 1u, 1u + i)
+           : side == 2u ? insideVertex(tile, n, n.x - 1u - i, n.y - 1u)
+                        : insideVertex(tile, n, 1u, n.y - 1u - i);
+}
+
+uint innerSegments(uint side, uvec2 n) { return (side % 2u == 0u ? n.x : n.y) - 2u; }
+
+void cellTriangle(TriangleTile tile, uvec2 n, uint t, uint triangle) {
+    uint i = (t / 2u) % (n.x - 2u) + 1u, j = (t / 2u) / (n.x - 2u) + 1u;
+    if (t % 2u == 0u)
+        storeTriangle(triangle, insideVertex(tile, n, i, j), insideVertex(tile, n, i + 1u, j), insideVertex(tile, n, i, j + 1u));
+    else
+        storeTriangle(triangle, insideVertex(tile, n, i + 1u, j), insideVertex(tile, n, i + 1u, j + 1u),
+                      insideVertex(tile, n, i, j + 1u));
+}
+#endif
+
+void main() {
+    uvec4 words = tileTexel(passFirst + gl_WorkGroupID.x);
+    TriangleTile tile = TriangleTile(words.x, words.y, words.z, words.w);
+    Face face = fetchFace(tile.face);
+    FaceRuns runs = fetchFaceRuns(tile.face);
+    uint r[kSideCount], largest = 1u, sum = 0u;
+    for (uint side = 0u; side < kSideCount; ++side) {
+        r[side] = sideRate(face.sides[side]).segments;
+        largest = max(largest, r[side]);
+        sum += r[side];
+    }
+#ifdef RELIEF_TRIANGLES
+    uvec2 n = uvec2(max(largest, 3u));
+    uint cells = (n.x - 3u) * (n.x - 3u);
+#else
+    uvec2 n = max(uvec2(max(r[0], r[2]), max(r[1], r[3])), 2u);
+    uint cells = 2u * (n.x - 2u) * (n.y - 2u);
+#endif
+    uint count = sum + cells;
+    for (uint side = 0u; side < kSideCount; ++side) count += innerSegments(side, n);
+    if (largest == 1u) count = kSideCount - 2u;
+
+    for (uint k = gl_LocalInvocationID.x; k < kTrianglesPerTile && tile.firstInFace + k < count; k += kDiceGroup) {
+        uint t = tile.firstInFace + k, triangle = tile.firstTriangle + k;
+        if (largest == 1u) {
+            storeTriangle(triangle, runs.corners[0], runs.corners[t + 1u], runs.corners[t + 2u]);
+            continue;
+        }
+        uint side = 0u;
+        for (; side < kSideCount; ++side) {
+            uint inRing = r[side] + innerSegments(side, n);
+            if (t < inRing) break;
+            t -= inRing;
+        }
+        if (side == kSideCount) {
+            cellTriangle(tile, n, t, triangle);
+            continue;
+        }
+#ifdef RELIEF_TRIANGLES
+        uint along = n.x;
+#else
+        uint along = side % 2u == 0u ? n.x : n.y;
+#endif
+        uint outer = r[side], inner = innerSegments(side, n);
+        uint entry = face.sides[side];
+        if (t < outer) {
+            storeTriangle(triangle, sideVertex(runs, side, entry, t, outer), sideVertex(runs, side, entry, t + 1u, outer),
+                          innerOf(tile, side, n, innerBefore(t, outer, inner, along)));
+        } else {
+            uint i = t - outer;
+            storeTriangle(triangle, innerOf(tile, side, n, i + 1u), innerOf(tile, side, n, i),
+                          sideVertex(runs, side, entry, outerBefore(i, outer, along), outer));
+        }
+    }
+}

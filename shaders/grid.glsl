@@ -1,0 +1,48 @@
+// A face drawn as a regular grid of passNumber x passRows segments, an instance a face. Samples on a side move to the nearest
+// sample of the edge's own rate, which is never larger: both faces pass through exactly the same points.
+#include "displaced.glsl"
+#include "emit.glsl"
+
+uint snap(uint k, uint from, uint to) { return (2u * k * to + from) / (2u * from); }
+
+// Sample (i,j) of the grid.
+vec2 facePoint(uint face, uint i, uint j) {
+    uint n = passNumber, m = passRows;
+    if (scene.isFractional == 0u) return vec2(i, j) / vec2(n, m);
+    Face record = fetchFace(face);
+    float rates[kSideCount];
+    for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]).rate;
+#ifdef RELIEF_TRIANGLES
+    float rate = max(rates[0], max(rates[1], rates[2]));
+    vec3 c = vec3(n - i - j, i, j) / float(n);
+    c = vec3(spaced(c.x, float(n), rate), spaced(c.y, float(n), rate), spaced(c.z, float(n), rate));
+    return c.yz / (c.x + c.y + c.z);
+#else
+    return vec2(sampleParameter(i, n, max(rates[0], rates[2])), sampleParameter(j, m, max(rates[1], rates[3])));
+#endif
+}
+
+void main() {
+    uint face = texelFetch(drawFaceTexels, gl_InstanceIndex).x;
+    uint n = passNumber, m = passRows;
+    uint i = uint(gl_VertexIndex) % (n + 1u), j = uint(gl_VertexIndex) / (n + 1u);
+    vec2 uv = facePoint(face, i, j);
+
+    uint side = 4u, k = 0u, count = n;
+    if (j == 0u) { side = 0u; k = i; }
+#ifdef RELIEF_TRIANGLES
+    else if (i + j == n) { side = 1u; k = j; }
+    else if (i == 0u) { side = 2u; k = n - j; }
+#else
+    else if (i == n) { side = 1u; k = j; count = m; }
+    else if (j == m) { side = 2u; k = n - i; }
+    else if (i == 0u) { side = 3u; k = m - j; count = m; }
+#endif
+    Place place = insidePlace(face, uv);
+    if (side < 4u) {
+        uint entry = fetchFace(face).sides[side];
+        SideRate rate = sideRate(entry);
+        place = sidePlace(entry, snap(k, count, rate.segments), rate);
+    }
+    emitVertex(face, uv, place, max(n, m), uint(gl_InstanceIndex) * (n + 1u) * (m + 1u) + uint(gl_VertexIndex));
+}

@@ -1,0 +1,133 @@
+// The triangles of a frame: rates, plans or a diced mesh, and the calls that draw them.
+#include <algorithm>
+
+#include "frame/renderer_parts.h"
+
+namespace relief {
+
+void Renderer::Parts::makeTriangles(Frame& frame, FrameStats& stats) {
+    const EdgeRates rates =
+        rater.rates(frame.model, frame.options, viewOf(frame.options.camera, desc.height), &stats.rateMs);
+    frame.edgeRates =
+        uploadTexels(device, {.name = "edge rates"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(rates.rates)));
+    frame.bindings[kBindEdgeRates].texels = frame.edgeRates.view.get();
+    if (frame.options.path == Path::dice)
+        makeDiced(frame, rates, stats);
+    else
+        makePlan(frame, rates, stats);
+}
+
+void Renderer::Parts::makePlan(Frame& frame, const EdgeRates& rates, FrameStats& stats) {
+    const RenderOptions& o = frame.options;
+    const DrawPlan& plan = frame.plan =
+        o.path == Path::grid
+            ? planGrids(frame.model, rates)
+            : planPatches(frame.model, rates,
+                          o.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw));
+    stats.triangleCount = plan.triangleCount;
+    stats.vertexCount = plan.vertexCount;
+    stats.faceCount = plan.faces.size();
+    stats.drawCount = std::uint32_t(plan.batches.size());
+    stats.maxRate = plan.maxRate;
+    frame.drawFaces = uploadWords(device, "faces to draw", plan.faces);
+    frame.bindings[kBindDrawFaces].texels = frame.drawFaces.view.get();
+    if (o.path == Path::grid) {
+        makeGrids(frame.model, plan);
+        return;
+    }
+    std::vector<VkDrawIndirectCommand> calls;
+    for (const DrawBatch& batch : plan.batches) calls.push_back({batch.faceCount, 1, batch.firstFace, 0});
+    frame.draws = uploadArray<VkDrawIndirectCommand>(device, "draws", calls, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
+}
+
+void Renderer::Parts::makeDiced(Frame& frame, const EdgeRates& rates, FrameStats& stats) {
+    frame.diced = dicer.dice(frame.model, rates,
+                             {.normal = frame.options.normal,
+                              .wantsTexCoords = constantsOf(frame, Pass::color).wantsTexCoords,
+                              .memory = frame.options.memory});
+    const DicedMesh& mesh = frame.diced;
+    frame.bindings[kBindMesh].texels = mesh.vertices.view.get();
+    frame.bindings[kBindMeshTexCoords].texels = mesh.texCoords.view.get();
+    stats.triangleCount = mesh.triangleCount;
+    stats.vertexCount = mesh.sampleCount;
+    stats.faceCount = frame.model.faces().size();
+    stats.drawCount = 1;
+    stats.maxRate = mesh.maxRate;
+    stats.diceMs = mesh.milliseconds;
+}
+
+/// Index buffers for all batches: of quads one with the most rows for each number of columns.
+void Renderer::Parts::makeGrids(const Model& model, const DrawPlan& plan) {
+    std::map<std::uint32_t, std::uint32_t> mostRows;
+    for (const DrawBatch& batch : plan.batches) mostRows[batch.columns] = std::max(mostRows[batch.columns], batch.rows);
+    for (const auto& [columns, rows] : mostRows) {
+        Buffer& grid = model.isTriangles() ? triangleGrids[columns] : grids[columns];
+        const std::vector<std::uint32_t> indices =
+            model.isTriangles() ? triangleGridIndices(columns) : gridIndices(columns, rows);
+        if (grid.bytes < indices.size() * 4)
+            grid = uploadArray<std::uint32_t>(device, "grid", indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    }
+}
+
+const Buffer& Renderer::Parts::gridOf(const Model& model, const DrawBatch& batch) const {
+    return (model.isTriangles() ? triangleGrids : grids).at(batch.columns);
+}
+
+void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pass) {
+    const Pipeline& pipeline = pipelineOf(frame, pass);
+    bind(commands, pipeline, frame.set);
+    PushConstants constants{.drawsShadow = pass == Pass::shadow ? 1u : 0u};
+    pushConstants(commands, pipeline, constants);
+    if (frame.model.isDense()) {
+        vkCmdBindIndexBuffer(commands, frame.model.indices().handle.get(), 0, VK_INDEX_TYPE_UINT32);
+        vkCmdDrawIndexed(commands, frame.model.indexCount(), 1, 0, 0, 0);
+        return;
+    }
+    if (frame.options.path == Path::dice) {
+        drawDiced(commands, frame, pipeline, constants);
+        return;
+    }
+    if (frame.options.path == Path::tessellation) {
+        const std::uint32_t atOnce = device.traits().maxDrawIndirectCount;
+        const auto count = std::uint32_t(frame.plan.batches.size());
+        for (std::uint32_t first = 0; first < count; first += atOnce)
+            vkCmdDrawIndirect(commands, frame.draws.handle.get(), first * sizeof(VkDrawIndirectCommand),
+                              std::min(atOnce, count - first), sizeof(VkDrawIndirectCommand));
+        return;
+    }
+    drawGrids(commands, frame, pipeline, constants);
+}
+
+void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline,
+                                PushConstants constants) {
+    for (const DrawBatch& batch : frame.plan.batches) {
+        constants.passNumber = batch.columns;
+        constants.passRows = batch.rows;
+        pushConstants(commands, pipeline, constants);
+        vkCmdBindIndexBuffer(commands, gridOf(frame.model, batch).handle.get(), 0, VK_INDEX_TYPE_UINT32);
+        const std::uint32_t indexCount = batch.columns * batch.rows * (frame.model.isTriangles() ? 3 : 6);
+        vkCmdDrawIndexed(commands, indexCount, batch.faceCount, 0, 0, batch.firstFace);
+    }
+}
+
+/// The whole mesh in one draw, or a draw a face where the picture shows what belongs to faces.
+void Renderer::Parts::drawDiced(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline,
+                                PushConstants constants) {
+    const DicedMesh& mesh = frame.diced;
+    vkCmdBindIndexBuffer(commands, mesh.indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+    if (frame.options.show != Show::faces && frame.options.show != Show::rate) {
+        vkCmdDrawIndexed(commands, mesh.triangleCount * 3, 1, 0, 0, 0);
+        return;
+    }
+    for (std::uint32_t face = 0; face + 1 < mesh.firstTriangles.size(); ++face) {
+        const std::uint32_t first = mesh.firstTriangles[face], count = mesh.firstTriangles[face + 1] - first;
+        if (count == 0) continue;
+        constants.passFirst = face;
+        constants.passRows = 1;
+        constants.passNumber = mesh.faceRates[face];
+        pushConstants(commands, pipeline, constants);
+        vkCmdDrawIndexed(commands, 3 * count, 1, 3 * first, 0, 0);
+    }
+}
+
+} // namespace relief

@@ -1,0 +1,73 @@
+// Internal: what a renderer is made of.
+#pragma once
+
+#include "frame/passes.h"
+
+namespace relief {
+
+struct Renderer::Parts {
+    Parts(Device& device, const RendererDesc& desc)
+        : device(device), desc(desc), targets(makeTargets(device, desc)), scene(makeSceneBuffer(device)),
+          repeating(makeSampler(device, {})),
+          clamped(makeSampler(device, {.wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                       .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+          around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+          nearest(makeSampler(device, {.filter = VK_FILTER_NEAREST,
+                                       .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                       .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+          noWords(uploadWords(device, "nothing", {})), timer(device, 8), rater(device), dicer(device) {}
+
+    Device& device;
+    RendererDesc desc;
+    Targets targets;
+    Buffer scene;
+    Owned<VkSampler> repeating, clamped, around, nearest;
+    TexelBuffer noWords;
+    Timer timer;
+    EdgeRater rater;
+    Dicer dicer;
+    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
+    std::map<std::uint32_t, Buffer> grids;                    ///< index buffers of quads by their columns,
+    std::map<std::uint32_t, Buffer> triangleGrids;            ///< of triangles by their rate
+    Environment studio;                                       ///< made when first needed
+    const Environment* uploadedEnvironment = nullptr;
+    Texture environment;
+
+    /// Everything that one call of render() needs.
+    struct Frame {
+        const Model& model;
+        const RenderOptions& options;
+        Scene scene{};
+        Binding bindings[kBindCount] = {};
+        TexelBuffer edgeRates, drawFaces;
+        Buffer draws;
+        DrawPlan plan;
+        DicedMesh diced;
+        BindingSet set;
+    };
+
+    enum class Pass { shadow, color, lines, light, cracks };
+
+    ShaderConstants constantsOf(const Frame& frame, Pass pass) const;
+    const Pipeline& pipelineOf(const Frame& frame, Pass pass);
+    std::vector<Stage> stagesOf(const Frame& frame, Pass pass) const;
+    void useEnvironment(const Lighting& lighting, Scene& scene);
+    void describeView(Frame& frame);
+    BindingSet bindingSet(const Frame& frame, Pass pass);
+    void makeTriangles(Frame& frame, FrameStats& stats);
+    void makePlan(Frame& frame, const EdgeRates& rates, FrameStats& stats);
+    void makeDiced(Frame& frame, const EdgeRates& rates, FrameStats& stats);
+    void makeGrids(const Model& model, const DrawPlan& plan);
+    const Buffer& gridOf(const Model& model, const DrawBatch& batch) const;
+    void drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, PushConstants constants);
+    void drawDiced(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, PushConstants constants);
+    void draw(VkCommandBuffer commands, const Frame& frame, Pass pass);
+    void shadowPass(VkCommandBuffer commands, const Frame& frame);
+    void colorPass(VkCommandBuffer commands, const Frame& frame);
+    void lightPass(VkCommandBuffer commands, const Frame& frame);
+    [[nodiscard]] bool castsShadows(const Frame& frame) const {
+        return frame.options.lighting.castsShadows && frame.options.show == Show::shaded;
+    }
+};
+
+} // namespace relief

@@ -1,0 +1,275 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "model/dice_table.h"
+#include "model/stages.h"
+
+namespace relief {
+namespace {
+
+constexpr std::uint32_t kTileSamples = 1024;   ///< of the insides of faces: enough for one load of control points
+constexpr std::uint32_t kGroupsAtOnce = 65535; ///< of a dispatch, in every device
+constexpr std::uint64_t kVertexBytes = 32;     ///< position and height, normal
+
+std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
+
+/// The smallest i with i / n >= cell / 2^depth, and at least 1: the border of a face belongs to its edges.
+std::uint32_t firstIn(std::uint32_t cell, std::uint32_t depth, std::uint32_t n) {
+    const std::uint64_t scale = std::uint64_t(1) << depth;
+    return std::max(std::uint32_t((std::uint64_t(cell) * n + scale - 1) / scale), 1u);
+}
+
+/// What one dicing dispatches.
+struct Work {
+    std::vector<std::uint32_t> runFirsts; ///< one more at the end: where the insides begin
+    std::vector<InsideTile> insides;
+    std::vector<TriangleTile> triangles;
+    std::vector<std::uint32_t> firstTriangles, faceRates;
+    std::uint64_t vertexCount = 0, triangleCount = 0, sampleCount = 0;
+    std::uint32_t maxRate = 0;
+};
+
+class WorkBuilder {
+public:
+    WorkBuilder(const Model& model, const DiceTable& table, const EdgeRates& rates)
+        : model_(model), table_(table), rates_(rates) {}
+
+    Work build() {
+        addRuns();
+        for (std::uint32_t face = 0; face < model_.faces().size(); ++face) {
+            work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
+            work_.faceRates.push_back(0);
+            if (model_.faces()[face].root != kNoPatch) addFace(face);
+        }
+        work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
+        return std::move(work_);
+    }
+
+private:
+    void addRuns() {
+        for (const VertexRun& run : table_.runs) {
+            work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
+            work_.vertexCount += run.isCorner != 0 ? 1 : rates_.segments(run.place) - 1;
+        }
+        work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
+        work_.sampleCount = model_.cornerCount();
+        for (std::uint32_t edge = 0; edge < model_.edges().size(); ++edge)
+            work_.sampleCount += rates_.segments(edge) - 1;
+    }
+
+    void addFace(std::uint32_t face) {
+        FaceSegments f = faceSegments(model_, rates_, face);
+        work_.faceRates.back() = std::uint32_t(std::ceil(f.largestRate));
+        work_.maxRate = std::max(work_.maxRate, work_.faceRates.back());
+        const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount())});
+        const auto firstVertex = std::uint32_t(work_.vertexCount);
+        for (std::uint64_t first = 0; first < triangles; first += kTrianglesPerTile)
+            work_.triangles.push_back(
+                {face, std::uint32_t(first), std::uint32_t(work_.triangleCount + first), firstVertex});
+        work_.triangleCount += triangles;
+        if (std::max(f.u, f.v) == 1) return;
+        if (model_.isTriangles())
+            addTriangleInside(face, std::max(f.u, 3u));
+        else
+            addQuadInside(face, std::max(f.u, 2u), std::max(f.v, 2u));
+        work_.sampleCount += work_.vertexCount - firstVertex;
+    }
+
+    void addTriangleInside(std::uint32_t face, std::uint32_t n) {
+        const std::uint32_t rows = std::max(kTileSamples / (n - 2), 1u);
+        for (std::uint32_t j = 1; j <= n - 2; j += rows)
+            work_.insides.push_back({face, 0, packed(1, j), packed(n - 2, std::min(rows, n - 1 - j)), packed(n, n), 0,
+                                     0, std::uint32_t(work_.vertexCount)});
+        work_.vertexCount += std::uint64_t(n - 1) * (n - 2) / 2;
+    }
+
+    void addQuadInside(std::uint32_t face, std::uint32_t m, std::uint32_t n) {
+        for (const LeafSquare& leaf : leavesOf(model_, face)) {
+            // Fractional samples are not at i/m: which leaf they fall in is found by looking.
+            const std::uint32_t i0 = firstSample(leaf.u, leaf.depth, m, face, 0),
+                                i1 = firstSample(leaf.u + 1, leaf.depth, m, face, 0);
+            const std::uint32_t j0 = firstSample(leaf.v, leaf.depth, n, face, 1),
+                                j1 = firstSample(leaf.v + 1, leaf.depth, n, face, 1);
+            if (i0 >= i1) continue;
+            const std::uint32_t rows = std::max(kTileSamples / (i1 - i0), 1u);
+            for (std::uint32_t j = j0; j < j1; j += rows)
+                work_.insides.push_back({face, leaf.patchIndex, packed(i0, j), packed(i1 - i0, std::min(rows, j1 - j)),
+                                         packed(m, n), leaf.depth, packed(leaf.u, leaf.v),
+                                         std::uint32_t(work_.vertexCount)});
+        }
+        work_.vertexCount += std::uint64_t(m - 1) * (n - 1);
+    }
+
+    /// The first inner sample at or past cell / 2^depth, at most n.
+    [[nodiscard]] std::uint32_t firstSample(std::uint32_t cell, std::uint32_t depth, std::uint32_t n,
+                                            std::uint32_t face, int axis) const {
+        if (rates_.spacing == Spacing::equal) return std::min(firstIn(cell, depth, n), n);
+        const float bound = std::ldexp(float(cell), -int(depth));
+        std::uint32_t i = 1;
+        while (i < n && parameterOf(i, n, insideRate(face, axis)) < bound) ++i;
+        return i;
+    }
+
+    [[nodiscard]] float insideRate(std::uint32_t face, int axis) const {
+        float rate = 0;
+        for (const int side : {axis, axis + 2}) {
+            const std::uint32_t entry = model_.faces()[face].sides[side];
+            rate = std::max(rate, rates_.rates[entry & kSideEdgeMask] * ((entry & kSideSplit) != 0 ? 2.0f : 1.0f));
+        }
+        return rate;
+    }
+
+    /// As sampleParameter in places.glsl.
+    static float parameterOf(std::uint32_t k, std::uint32_t n, float rate) {
+        const float t = std::min(float(std::min(k, n - k)) / rate, 0.5f);
+        return 2 * k <= n ? t : 1 - t;
+    }
+
+    const Model& model_;
+    const DiceTable& table_;
+    const EdgeRates& rates_;
+    Work work_;
+};
+
+void checkMemory(const Device& device, std::uint64_t bytes, const Work& work, std::optional<std::uint64_t> allowed) {
+    const std::uint64_t limit = allowed.value_or(device.traits().heapBytes / 2);
+    if (bytes > limit)
+        fail(Failure::device,
+             "dicing makes {} vertices and {} triangles, {}; {} are allowed: lower the rate or raise --memory",
+             work.vertexCount, work.triangleCount, humanBytes(bytes), humanBytes(limit));
+    if (2 * work.vertexCount > device.traits().maxTexelBufferElements)
+        fail(Failure::device, "dicing makes {} vertices; this device reads {} at most: lower the rate",
+             work.vertexCount, device.traits().maxTexelBufferElements / 2);
+}
+
+} // namespace
+
+struct Dicer::Parts {
+    explicit Parts(Device& device) : device(device), inputs(device), stages(device), timer(device, 2) {}
+
+    /// Makes the buffers of the mesh and writes them.
+    DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options);
+    Device& device;
+    GeometryInputs inputs;
+    ComputeStages stages;
+    Timer timer;
+};
+
+Dicer::Dicer(Device& device) : parts_(std::make_unique<Parts>(device)) {}
+Dicer::~Dicer() = default;
+
+DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+    const DiceTable& table = model.diceTable(device);
+    const Work work = WorkBuilder(model, table, rates).build();
+    const std::uint64_t vertexBytes = kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0);
+    const std::uint64_t bytes = work.vertexCount * vertexBytes + work.triangleCount * 12;
+    checkMemory(device, bytes, work, options.memory);
+
+    DicedMesh mesh;
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    mesh.vertices =
+        makeTexels(device, {.name = "diced vertices", .bytes = work.vertexCount * kVertexBytes, .usage = usage},
+                   VK_FORMAT_R32G32B32A32_SFLOAT);
+    mesh.texCoords = makeTexels(device,
+                                {.name = "diced texture coordinates",
+                                 .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
+                                 .usage = usage},
+                                VK_FORMAT_R32G32_SFLOAT);
+    mesh.indices = makeBuffer(
+        device,
+        {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
+    mesh.firstTriangles = work.firstTriangles;
+    mesh.faceRates = work.faceRates;
+    mesh.runFirsts = work.runFirsts;
+    mesh.sampleCount = work.sampleCount;
+    mesh.vertexCount = std::uint32_t(work.vertexCount);
+    mesh.triangleCount = std::uint32_t(work.triangleCount);
+    mesh.maxRate = work.maxRate;
+    mesh.byteCount = bytes;
+
+    std::vector<std::uint32_t> tiles;
+    appendRecords<kInsideTileTexels>(tiles, work.insides);
+    const std::uint32_t firstTriangleTile = appendRecords<kTriangleTileTexels>(tiles, work.triangles);
+    const TexelBuffer edgeRates =
+        uploadTexels(device, {.name = "edge rates"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(rates.rates)));
+    const TexelBuffer tileTexels =
+        uploadTexels(device, {.name = "dice tiles"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(tiles)));
+    const TexelBuffer firsts = uploadWords(device, "dice firsts", work.runFirsts);
+
+    Scene scene{};
+    Binding bindings[kBindDepths];
+    inputs.fill(model, scene, bindings);
+    bindings[kBindEdgeRates].texels = edgeRates.view.get();
+    bindings[kBindDiceTable].texels = table.texels.view.get();
+    bindings[kBindDiceTiles].texels = tileTexels.view.get();
+    bindings[kBindDiceFirsts].texels = firsts.view.get();
+    scene.dicedVertices = mesh.vertices.buffer.address;
+    scene.dicedTexCoords = mesh.texCoords.buffer.address;
+    scene.dicedIndices = mesh.indices.address;
+    scene.firstFaceRuns = table.firstFaceRuns;
+    scene.cornerRunCount = table.cornerRunCount;
+    scene.runCount = std::uint32_t(table.runs.size());
+    scene.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
+
+    ShaderConstants constants = constantsOf(model, options.normal);
+    constants.wantsTexCoords = options.wantsTexCoords;
+    struct Pass {
+        const char* file;
+        std::uint64_t groups;
+        PushConstants constants;
+    };
+    const std::uint32_t edgeVertices = work.runFirsts.back();
+    const Pass passes[] = {
+        {"dice_insides.comp", work.insides.size(), {}},
+        {"dice_edges.comp", (edgeVertices + kDiceGroup - 1) / kDiceGroup, {.passNumber = edgeVertices}},
+        {"dice_triangles.comp", work.triangles.size(), {.passFirst = firstTriangleTile}}};
+    const BindingSet set =
+        makeBindingSet(device, stages.pipeline(passes[0].file, model, constants), GeometryInputs::layout(), bindings);
+    device.run([&](VkCommandBuffer commands) {
+        timer.reset(commands);
+        writeScene(commands, inputs.scene(), scene);
+        timer.stamp(commands);
+        for (const Pass& pass : passes) {
+            const Pipeline& pipeline = stages.pipeline(pass.file, model, constants);
+            bind(commands, pipeline, set);
+            for (std::uint64_t first = 0; first < pass.groups; first += kGroupsAtOnce) {
+                PushConstants part = pass.constants;
+                part.passFirst += std::uint32_t(first);
+                pushConstants(commands, pipeline, part);
+                vkCmdDispatch(commands, std::uint32_t(std::min<std::uint64_t>(kGroupsAtOnce, pass.groups - first)), 1,
+                              1);
+            }
+        }
+        barrier(commands);
+        timer.stamp(commands);
+    });
+    const std::vector<double> times = timer.intervals();
+    if (!times.empty()) mesh.milliseconds = times[0];
+    return mesh;
+}
+
+DicedMesh Dicer::dice(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+    return parts_->dice(model, rates, options);
+}
+
+DenseMesh Dicer::diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+    const DicedMesh mesh = dice(model, rates, options);
+    Device& device = parts_->device;
+    DenseMesh host;
+    std::vector<vec4> vertices(std::size_t(mesh.vertexCount) * 2);
+    downloadBytes(device, mesh.vertices.buffer, std::as_writable_bytes(std::span(vertices)));
+    for (std::size_t i = 0; i < vertices.size(); i += 2) {
+        host.positions.emplace_back(vertices[i]);
+        host.normals.emplace_back(vertices[i + 1]);
+    }
+    if (options.wantsTexCoords) {
+        host.texCoords.resize(mesh.vertexCount);
+        downloadBytes(device, mesh.texCoords.buffer, std::as_writable_bytes(std::span(host.texCoords)));
+    }
+    host.indices.resize(std::size_t(mesh.triangleCount) * 3);
+    downloadBytes(device, mesh.indices, std::as_writable_bytes(std::span(host.indices)));
+    return host;
+}
+
+} // namespace relief

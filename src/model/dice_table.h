@@ -1,0 +1,31 @@
+// Internal: which vertices a diced mesh has, and where the leaves of a face's tree lie: topology, whatever the rates.
+#pragma once
+
+#include "model/model.h"
+#include "shared/dice.h"
+
+namespace relief {
+
+struct DiceTable {
+    std::vector<VertexRun> runs; ///< those of corners first
+    std::uint32_t cornerRunCount = 0;
+    std::vector<FaceRuns> faceRuns; ///< one a face
+    TexelBuffer texels;             ///< runs, then those around faces
+    std::uint32_t firstFaceRuns = 0;
+};
+
+/// Vertices of an edge or corner are repeated where its faces' normals or texture coordinates part.
+DiceTable makeDiceTable(Device& device, const Model& model);
+
+/// One a vertex of a diced mesh: whether it lies on an edge of the cage that has one drawn face.
+std::vector<char> boundaryVertices(Device& device, const Model& model, const DicedMesh& mesh);
+
+/// A leaf patch covers ([u, u+1], [v, v+1]) / 2^depth of its face.
+struct LeafSquare {
+    std::uint32_t patchIndex = 0, depth = 0, u = 0, v = 0;
+};
+
+/// The leaves of a four-sided face.
+std::vector<LeafSquare> leavesOf(const Model& model, std::uint32_t face);
+
+} // namespace relief

@@ -1,0 +1,60 @@
+#include "model/stages.h"
+
+namespace relief {
+
+PipelineLayoutDesc passLayout() {
+    PipelineLayoutDesc layout{std::vector<VkDescriptorType>(kBindCount, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER),
+                              sizeof(PushConstants)};
+    layout.bindings[kBindScene] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    for (const std::uint32_t image :
+         {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
+        layout.bindings[image] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    return layout;
+}
+
+TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words) {
+    return uploadTexels(device, {.name = name}, VK_FORMAT_R32_UINT, std::as_bytes(words));
+}
+
+Buffer makeSceneBuffer(Device& device) {
+    return makeBuffer(device, {.name = "scene",
+                               .bytes = sizeof(Scene),
+                               .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+}
+
+void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene) {
+    vkCmdUpdateBuffer(commands, buffer.handle.get(), 0, sizeof(Scene), &scene);
+    barrier(commands);
+}
+
+GeometryInputs::GeometryInputs(Device& device)
+    : scene_(makeSceneBuffer(device)), none_(uploadWords(device, "nothing", {})), sampler_(makeSampler(device, {})) {}
+
+PipelineLayoutDesc GeometryInputs::layout() {
+    PipelineLayoutDesc layout = passLayout();
+    layout.bindings.resize(kBindDepths);
+    return layout;
+}
+
+void GeometryInputs::fill(const Model& model, Scene& scene, std::span<Binding> bindings) const {
+    model.describe(scene, bindings);
+    bindings[kBindScene].uniform = scene_.handle.get();
+    bindings[kBindEnvironment].view = bindings[kBindShadow].view = bindings[kBindAlbedo].view;
+    for (const std::uint32_t image : {kBindHeight, kBindAlbedo, kBindEnvironment, kBindShadow})
+        bindings[image].sampler = sampler_.get();
+    for (const std::uint32_t texels : {kBindEdgeRates, kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
+        bindings[texels].texels = none_.view.get();
+}
+
+const Pipeline& ComputeStages::pipeline(const char* file, const Model& model, const ShaderConstants& constants) {
+    std::pair<std::string, std::vector<std::uint32_t>> key{file, constants.values()};
+    key.second.push_back(model.isTriangles());
+    const auto found = pipelines_.find(key);
+    if (found != pipelines_.end()) return found->second;
+    const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode(file, model.isTriangles())};
+    return pipelines_[key] = makeCompute(
+               device_,
+               {.name = file, .stage = stage, .constants = constants.values(), .layout = GeometryInputs::layout()});
+}
+
+} // namespace relief
