@@ -13,12 +13,9 @@ namespace relief {
 
 // --- watertight ---------------------------------------------------------------------------------------------------
 
-/// The triangles that a path makes, as the device made them.
-struct CapturedMesh {
-    std::vector<vec3> positions;
-    std::vector<char> isOnBoundary; ///< one a vertex: it lies on a boundary edge of the cage (one face only, or a hole)
-    std::vector<std::uint32_t> indices; ///< three a triangle
-};
+/// True when front and back faces cancel along every line of sight: closed, and every edge is run by as many faces one
+/// way as the other.
+bool enclosesVolume(const Surface& surface);
 
 /// All edges of one triangle are counted; gaps and T-junctions are looked for at so many of the open ones, among so
 /// many.
