@@ -1,12 +1,18 @@
 #include "app/certificate.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace relief::app {
 namespace {
 
 using nlohmann::json;
 
-/// What is promised outside end caps at the default isolation, over the diagonal of the cage's bounding box.
-constexpr double kMostPointError = 1e-6, kMostTangentError = 1e-5;
+/// What is promised outside end caps, over the diagonal of the cage's bounding box.
+constexpr double kMostPointError = 1e-6;
+
+/// Rounding of a leaf patch's points grows with its magnification; up to the default isolation it is promised away.
+double mostTangentError(int isolation) { return std::ldexp(1e-5, std::max(isolation - SurfaceOptions().isolation, 0)); }
 
 void addBroken(std::vector<std::string>& broken, const PathReport& report) {
     const Watertightness& w = report.triangles;
@@ -58,7 +64,7 @@ json ofRegion(const RegionErrors& errors) {
 
 json ofCurvature(const CurvatureReport& report) {
     return {{"points", report.count},
-            {"points_without_normal", report.countWithoutNormal},
+            {"points_without_curvature", report.countWithoutCurvature},
             {"min_one_plus_h_kappa", report.lowestFactor},
             {"min_at", ofPlace(report.lowestAt)},
             {"area", report.area},
@@ -124,8 +130,13 @@ std::string curvatureWords(const CurvatureReport& r) {
                               r.maxNormalAngle, r.meanNormalAngle);
 }
 
+/// Heights nearer than this part of the map's reach are the same: those of a float map are not told apart.
+constexpr double kSameHeight = 1e-7;
+
 std::string seamWords(const SeamReport& seams, double reach) {
     if (seams.seamEdgeCount == 0) return "  The map has no seams on this cage.\n";
+    if (seams.max <= kSameHeight * reach)
+        return fmt::format("  The two sides of {} seam edges agree.\n", seams.seamEdgeCount);
     return fmt::format("  The two sides of {} seam edges disagree by up to {:.3g} cage units ({:.3g} % of the map's "
                        "reach), {:.3g} on average, most at {}; the owner's side is drawn on both.\n",
                        seams.seamEdgeCount, seams.max, reach > 0 ? 100 * seams.max / reach : 0, seams.mean,
@@ -143,7 +154,7 @@ std::vector<std::string> Certificate::brokenPromises() const {
                                          error.max, words(error.worst), most));
     };
     check(frames.regular.point, kMostPointError, "points");
-    check(frames.regular.tangent, kMostTangentError, "tangents");
+    check(frames.regular.tangent, mostTangentError(isolation), "tangents");
     return broken;
 }
 

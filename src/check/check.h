@@ -55,7 +55,8 @@ struct SurfacePlace {
 /// Points that cover all drawn faces alike, with their corners and edges.
 struct SurfaceSamples {
     std::vector<SampleQuery> queries;
-    std::vector<double> weights; ///< one a query: its share of the face's (u,v); 1 a face, 1/2 a triangle
+    std::vector<double> weights;    ///< one a query: its share of the face's (u,v); 1 a face, 1/2 a triangle
+    std::vector<char> hasCurvature; ///< one a query: false in corners of end caps, where it depends on the direction
 };
 
 /// About `budget` points, and at least 3 x 3 a face (10 a triangle).
@@ -68,7 +69,7 @@ struct ErrorSummary {
 
 struct RegionErrors {
     std::uint64_t count = 0;
-    std::uint64_t countWithoutNormal = 0; ///< points without a tangent plane: left out of the normals
+    std::uint64_t countWithoutNormal = 0; ///< points without a tangent plane: left out of tangents and normals
     ErrorSummary point;                   ///< |p - p'| over the diagonal
     ErrorSummary tangent;                 ///< the larger of |p_u - p_u'| and |p_v - p_v'| over the diagonal
     ErrorSummary limitNormal, normal;     ///< degrees; `normal` is that of the displaced surface
@@ -102,9 +103,9 @@ Curvatures principalCurvatures(const LimitFrame& frame);
 
 /// The displaced surface is locally one-to-one where 1 + h kappa > 0 for both principal curvatures.
 struct CurvatureReport {
-    std::uint64_t count = 0;              ///< points that tell
-    std::uint64_t countWithoutNormal = 0; ///< points without a tangent plane, or not finite: left out
-    double lowestFactor = 1;              ///< minimum of 1 + h kappa
+    std::uint64_t count = 0;                 ///< points that tell
+    std::uint64_t countWithoutCurvature = 0; ///< points without one, without a tangent plane or not finite: left out
+    double lowestFactor = 1;                 ///< minimum of 1 + h kappa
     SurfacePlace lowestAt;
     double area = 0, foldedArea = 0; ///< of the limit surface, cage units squared; folded where 1 + h kappa <= 0
     /// Between the full normal and the first-order one, which leaves out curvature; the mean is over the area.

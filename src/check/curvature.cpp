@@ -56,15 +56,11 @@ double normalAngle(const LimitFrame& f, const NormalFrame& normal, const SampleR
 /// Sums angle times area into meanNormalAngle.
 void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& r, double weight) {
     const LimitFrame frame = frameOf(r);
-    if (!frame.hasTangentPlane()) {
-        ++report.countWithoutNormal;
-        return;
-    }
     const NormalFrame normal(frame);
     const Curvatures k = curvaturesOf(frame, normal);
     const double factor = 1 + std::min(r.h * k.lowest, r.h * k.highest), angle = normalAngle(frame, normal, r);
-    if (!std::isfinite(factor + angle + normal.area)) {
-        ++report.countWithoutNormal;
+    if (!frame.hasTangentPlane() || !std::isfinite(factor + angle + normal.area)) {
+        ++report.countWithoutCurvature;
         return;
     }
     const SurfacePlace place{query.face, query.uv};
@@ -83,7 +79,10 @@ Curvatures principalCurvatures(const LimitFrame& frame) { return curvaturesOf(fr
 CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results) {
     CurvatureReport report;
     for (std::size_t i = 0; i < samples.queries.size(); ++i)
-        add(report, samples.queries[i], results[i], samples.weights[i]);
+        if (samples.hasCurvature[i])
+            add(report, samples.queries[i], results[i], samples.weights[i]);
+        else
+            ++report.countWithoutCurvature;
     report.meanNormalAngle = report.area > 0 ? report.meanNormalAngle / report.area : 0;
     return report;
 }

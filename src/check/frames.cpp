@@ -21,9 +21,8 @@ void finish(RegionErrors& errors) {
         summary.rms = count > 0 ? std::sqrt(summary.rms / double(count)) : 0;
     };
     root(errors.point, errors.count);
-    root(errors.tangent, errors.count);
-    root(errors.limitNormal, errors.count - errors.countWithoutNormal);
-    root(errors.normal, errors.count - errors.countWithoutNormal);
+    for (ErrorSummary* summary : {&errors.tangent, &errors.limitNormal, &errors.normal})
+        root(*summary, errors.count - errors.countWithoutNormal);
 }
 
 double degreesBetween(const dvec3& a, const dvec3& b) {
@@ -42,11 +41,11 @@ void compare(const FrameComparison& with, const SampleQuery& query, const Sample
     const auto distance = [&](const dvec3& a, const vec3& b) { return glm::length(a - dvec3(b)) / with.diagonal; };
     ++errors.count;
     add(errors.point, distance(frame.limit.p, result.p), place);
-    add(errors.tangent, farther(distance(frame.limit.pu, result.pu), distance(frame.limit.pv, result.pv)), place);
-    if (!frame.limit.hasTangentPlane()) {
+    if (!frame.limit.hasTangentPlane()) { // the device has mended its tangents there
         ++errors.countWithoutNormal;
         return;
     }
+    add(errors.tangent, farther(distance(frame.limit.pu, result.pu), distance(frame.limit.pv, result.pv)), place);
     add(errors.limitNormal, degreesBetween(frame.normal, dvec3(result.n)), place);
     add(errors.normal, degreesBetween(normalOf(frame, with.normal), dvec3(result.m)), place);
 }

@@ -7,6 +7,37 @@
 namespace relief {
 namespace {
 
+struct Leaf {
+    std::uint32_t type = 0; ///< of its patch, kPatch...
+    vec2 uv{0};             ///< in the patch
+};
+
+/// Descends the face's tree as shared/surface.h draws it.
+Leaf leafAt(const Surface& surface, const SampleQuery& query) {
+    vec2 uv = query.uv;
+    std::uint32_t entry = surface.faces[query.face].root;
+    while ((entry & kLeafBit) == 0) {
+        std::uint32_t child = 0;
+        if (surface.sideCount == 4) {
+            child = (uv.x >= 0.5f ? 1u : 0u) + (uv.y >= 0.5f ? 2u : 0u);
+            uv = 2.0f * uv - vec2(child & 1, child >> 1);
+        } else {
+            child = uv.x >= 0.5f ? 1 : uv.y >= 0.5f ? 2 : uv.x + uv.y > 0.5f ? 3 : 0;
+            uv = 2.0f * (child == 3 ? 0.5f - uv : uv - vec2(child == 1 ? 0.5f : 0.0f, child == 2 ? 0.5f : 0.0f));
+        }
+        entry = surface.tree[entry + child];
+    }
+    return {surface.patches[entry & ~kLeafBit].type, uv};
+}
+
+/// The second derivatives of a Gregory patch have no value in its corners.
+bool hasCurvature(const Surface& surface, const SampleQuery& query) {
+    const Leaf leaf = leafAt(surface, query);
+    const auto isEnd = [](float x) { return x <= 0 || x >= 1; };
+    const bool isGregory = leaf.type == kPatchGregory || leaf.type == kPatchGregoryTriangle;
+    return !(isGregory && isEnd(leaf.uv.x) && isEnd(leaf.uv.y));
+}
+
 /// Weights of the trapezoidal rule in both directions.
 void addQuad(SurfaceSamples& samples, std::uint32_t face, int side) {
     const auto share = [&](int i) { return (i == 0 || i == side - 1 ? 0.5 : 1.0) / (side - 1); };
@@ -47,6 +78,7 @@ SurfaceSamples sampleEverywhere(const Surface& surface, std::size_t budget) {
         else
             addQuad(samples, face, side);
     }
+    for (const SampleQuery& query : samples.queries) samples.hasCurvature.push_back(hasCurvature(surface, query));
     return samples;
 }
 

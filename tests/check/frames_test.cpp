@@ -116,7 +116,7 @@ TEST(Frames, withoutATangentPlaneHaveNoNormals) {
     for (const std::uint32_t face : {0u, 3u, 12u, 15u})
         for (std::size_t i = 9 * face; i < 9 * (face + 1); ++i)
             if (!p.reference.limit(int(face), dvec2(p.samples.queries[i].uv)).hasTangentPlane())
-                p.results[i].n = p.results[i].m = vec3(1, 0, 0);
+                p.results[i].n = p.results[i].m = p.results[i].pu = vec3(1, 0, 0);
     const FrameErrors e = p.errors();
     EXPECT_EQ(e.endCaps.count, 4u);
     EXPECT_EQ(e.endCaps.countWithoutNormal, 4u);
@@ -165,6 +165,24 @@ TEST(Samples, coverTheFacesThatAreDrawn) {
             }
         }
     }
+}
+
+// Quads: the eight corners of the cube are corners of end caps, a face has 4 of them. Triangles likewise.
+TEST(Samples, knowWhereThereIsNoCurvature) {
+    const auto withoutCurvature = [](const Cage& cage, const SurfaceOptions& options) {
+        const SurfaceSamples samples = sampleEverywhere(buildSurface(cage, options), 0);
+        std::vector<SampleQuery> found;
+        for (std::size_t i = 0; i < samples.queries.size(); ++i)
+            if (!samples.hasCurvature[i]) found.push_back(samples.queries[i]);
+        return found;
+    };
+    const std::vector<SampleQuery> ofCube = withoutCurvature(cube(), {.isolation = 3});
+    EXPECT_EQ(ofCube.size(), 24u);
+    for (const SampleQuery& query : ofCube)
+        EXPECT_TRUE((query.uv.x == 0 || query.uv.x == 1) && (query.uv.y == 0 || query.uv.y == 1));
+    EXPECT_EQ(withoutCurvature(icosahedron(), {.scheme = Scheme::loop, .isolation = 3}).size(), 60u);
+    EXPECT_EQ(withoutCurvature(torusWithSeams(), {.isolation = 3}).size(), 0u);
+    EXPECT_EQ(withoutCurvature(hardCube(), {.isolation = 3}).size(), 0u) << "corner patches have a curvature";
 }
 
 TEST(Samples, alwaysReachTheInsideOfFaces) {
