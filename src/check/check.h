@@ -13,8 +13,8 @@ namespace relief {
 
 // --- watertight ---------------------------------------------------------------------------------------------------
 
-/// True when front and back faces cancel along every line of sight: closed, and every edge is run by as many faces one
-/// way as the other.
+/// True when front and back faces cancel along every line of sight: every edge is run by as many drawn faces one way as
+/// the other.
 bool enclosesVolume(const Surface& surface);
 
 /// All edges of one triangle are counted; gaps and T-junctions are looked for at so many of the open ones, among so

@@ -4,7 +4,6 @@
 namespace relief {
 
 bool enclosesVolume(const Surface& surface) {
-    if (!surface.isClosed) return false;
     const EdgeTouches touches = incidentTouches(surface);
     for (std::size_t edge = 0; edge < surface.edges.size(); ++edge) {
         int balance = 0;

@@ -122,6 +122,8 @@ TEST(CurvatureReport, measuresTheShape) {
     EXPECT_EQ(r.lowestAt.face / kFaces, 1u) << "where the second row of faces ends, half way round the tube";
     EXPECT_EQ(r.lowestAt.uv.y, 1);
     EXPECT_EQ(r.foldedArea, 0);
+    const auto torus = [](double x, double y) { return torusFrame(2, 0.5, x, y); };
+    EXPECT_NEAR(Sheet(-0.1, torus).report().lowestFactor, 1 - 0.1 / 0.5, 1e-6) << "inwards the tube is the narrower";
 }
 
 TEST(CurvatureReport, measuresFolds) {
@@ -166,9 +168,10 @@ TEST(CurvatureReport, leavesOutWhatHasNoTangentPlane) {
     sheet.results[9].puv.x = std::numeric_limits<float>::quiet_NaN();
     sheet.results[10].h = -5;
     sheet.samples.hasCurvature[10] = 0;
+    sheet.results[11].pu = sheet.results[11].pv * vec3(1, 1 + 1e-6f, 1);
     const CurvatureReport r = sheet.report();
-    EXPECT_EQ(r.countWithoutCurvature, 4u);
-    EXPECT_EQ(r.count, 160'000u - 4);
+    EXPECT_EQ(r.countWithoutCurvature, 5u);
+    EXPECT_EQ(r.count, 160'000u - 5);
     EXPECT_NEAR(r.lowestFactor, 1.1, 1e-5);
     EXPECT_TRUE(std::isfinite(r.area));
 }

@@ -169,8 +169,8 @@ TEST(Samples, coverTheFacesThatAreDrawn) {
 
 // Quads: the eight corners of the cube are corners of end caps, a face has 4 of them. Triangles likewise.
 TEST(Samples, knowWhereThereIsNoCurvature) {
-    const auto withoutCurvature = [](const Cage& cage, const SurfaceOptions& options) {
-        const SurfaceSamples samples = sampleEverywhere(buildSurface(cage, options), 0);
+    const auto withoutCurvature = [](const Cage& cage, const SurfaceOptions& options, std::size_t budget = 0) {
+        const SurfaceSamples samples = sampleEverywhere(buildSurface(cage, options), budget);
         std::vector<SampleQuery> found;
         for (std::size_t i = 0; i < samples.queries.size(); ++i)
             if (!samples.hasCurvature[i]) found.push_back(samples.queries[i]);
@@ -180,6 +180,7 @@ TEST(Samples, knowWhereThereIsNoCurvature) {
     EXPECT_EQ(ofCube.size(), 24u);
     for (const SampleQuery& query : ofCube)
         EXPECT_TRUE((query.uv.x == 0 || query.uv.x == 1) && (query.uv.y == 0 || query.uv.y == 1));
+    EXPECT_EQ(withoutCurvature(cube(), {.isolation = 1}, 6 * 25).size(), 6u * 9) << "a face is four end caps";
     EXPECT_EQ(withoutCurvature(icosahedron(), {.scheme = Scheme::loop, .isolation = 3}).size(), 60u);
     EXPECT_EQ(withoutCurvature(torusWithSeams(), {.isolation = 3}).size(), 0u);
     EXPECT_EQ(withoutCurvature(hardCube(), {.isolation = 3}).size(), 0u) << "corner patches have a curvature";

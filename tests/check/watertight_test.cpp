@@ -116,6 +116,28 @@ TEST(Watertight, countsVerticesOnOthersEdges) {
     EXPECT_EQ(checkWatertight(mesh, 6).tJunctions, 1u) << "now the others' vertex lies on this edge";
 }
 
+/// Two sheets side by side along x = 2 as far as z = 1 + rows, the right one with `more` times the rows.
+CapturedMesh sheetsOfTwoRates(std::uint32_t rows, std::uint32_t more) {
+    CapturedMesh mesh = openGrid(1, rows);
+    const CapturedMesh right = openGrid(1, more * rows);
+    const auto offset = std::uint32_t(mesh.positions.size());
+    for (const vec3& p : right.positions) addVertex(mesh, {p.x + 1, 0, 1 + (p.z - 1) / float(more)}, true);
+    for (const std::uint32_t index : right.indices) mesh.indices.push_back(offset + index);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        if (mesh.positions[i].x == 2) mesh.isOnBoundary[i] = 0;
+    return mesh;
+}
+
+TEST(Watertight, countsAllTJunctionsOfALongSeamInAnyDirection) {
+    CapturedMesh mesh = sheetsOfTwoRates(50, 1);
+    EXPECT_EQ(checkWatertight(mesh, 100).openEdges, 4u)
+        << "the ends of the seam are unflagged, so their sides are open";
+    mesh = sheetsOfTwoRates(50, 4);
+    EXPECT_EQ(checkWatertight(mesh, 300).tJunctions, 150u);
+    for (vec3& p : mesh.positions) p = {p.x + 2 * p.z, p.z - p.x, p.x}; // exact: these are quarters
+    EXPECT_EQ(checkWatertight(mesh, 300).tJunctions, 150u);
+}
+
 TEST(Watertight, knowsTheBoundaryOfTheCage) {
     const CapturedMesh mesh = openGrid(5, 3);
     const Watertightness w = checkWatertight(mesh, 16);
@@ -127,6 +149,13 @@ TEST(Watertight, knowsTheBoundaryOfTheCage) {
     CapturedMesh unflagged = mesh;
     std::ranges::fill(unflagged.isOnBoundary, 0);
     EXPECT_EQ(checkWatertight(unflagged, 16).openEdges, 16u);
+
+    // One flag at a place is enough: a vertex that comes later without does not take it away.
+    CapturedMesh twice = mesh;
+    const auto offset = std::uint32_t(mesh.positions.size());
+    for (const vec3& p : mesh.positions) addVertex(twice, p, false);
+    for (std::size_t i = 0; i < twice.indices.size(); i += 2) twice.indices[i] += offset;
+    EXPECT_TRUE(checkWatertight(twice, 16).isWatertight());
 }
 
 TEST(Watertight, missesBoundarySegmentsThatAreNotThere) {
@@ -182,6 +211,11 @@ TEST(Watertight, isNotAMeshWithNumbersThatAreNone) {
         const Watertightness w = checkWatertight(mesh, 12);
         EXPECT_EQ(w.notFinite, 1u);
         EXPECT_FALSE(w.isWatertight());
+
+        mesh = closedBox(2);
+        addVertex(mesh, {0, bad, 0});
+        EXPECT_EQ(checkWatertight(mesh, 0).openEdges, 0u);
+        EXPECT_FALSE(checkWatertight(mesh, 0).isWatertight());
     }
 }
 
