@@ -1,35 +1,31 @@
 // relief_bench: the same displaced triangles drawn by each path and as a static dense mesh, in one run; what splitting
-// draws is worth on this device; what a cold start costs. Absolute times are noise between runs: quote the ratios.
+// draws is worth on this device; what a cold start costs; what other evaluators take on the processor. Absolute times
+// are noise between runs: quote the ratios.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <thread>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "frame/frame.h"
+#include "timing.h"
+#ifdef RELIEF_EVALUATORS
+#include "evaluators.h"
+#endif
 
 namespace {
 
 using namespace relief;
+using bench::median;
+using bench::millisecondsOf;
 
 constexpr int kRounds = 7;
 constexpr std::uint64_t kTriangles = 1'000'000;
-
-double median(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
-double millisecondsOf(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-}
 
 /// The production cage where it is at hand (RELIEF_DATA), else the project's own torus.
 std::string cagePath() {
@@ -76,7 +72,7 @@ struct Series {
     const char* name;
     const Model* model;
     Path path;
-    std::vector<double> device, wall;
+    std::vector<double> device, wall, dice;
     std::uint64_t triangles = 0;
 };
 
@@ -88,7 +84,8 @@ void measure(Renderer& renderer, const RenderOptions& base, std::vector<Series>&
             options.path = series.path;
             const Picture picture = renderer.render(*series.model, options);
             if (round == 0) continue; // compiles the shaders
-            series.device.push_back(picture.stats.colorMs);
+            series.device.push_back(picture.stats.diceMs + picture.stats.colorMs);
+            series.dice.push_back(picture.stats.diceMs);
             series.wall.push_back(picture.stats.wallMs);
             series.triangles = picture.stats.triangleCount;
         }
@@ -98,9 +95,9 @@ void print(const std::vector<Series>& all) {
     const Series& base = all.back();
     for (const Series& series : all)
         std::cout << fmt::format(
-            "{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x\n", series.name,
+            "{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x   dicing {:6.1f} ms\n", series.name,
             series.triangles, median(series.device), median(series.device) / median(base.device), median(series.wall),
-            median(series.wall) / median(base.wall));
+            median(series.wall) / median(base.wall), median(series.dice));
 }
 
 int benchFrame() {
@@ -116,11 +113,40 @@ int benchFrame() {
     std::vector<Series> all;
     if (device.traits().hasTessellation) all.push_back({"tessellation", &displaced, Path::tessellation, {}, {}});
     all.push_back({"grid", &displaced, Path::grid, {}, {}});
+    all.push_back({"dicing and its draw", &displaced, Path::dice, {}, {}});
     all.push_back({"static dense mesh", &dense, Path::grid, {}, {}});
     measure(renderer, subject.options, all);
     print(all);
     std::cout << fmt::format("on the device: cage + map {}, dense mesh {}\n", humanBytes(displaced.byteCount()),
                              humanBytes(dense.byteCount()));
+    return 0;
+}
+
+/// Displaced vertices per second of the dicer.
+int benchDice() {
+    Subject subject;
+    Device device;
+    const Model displaced(
+        device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    const Model smooth(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions});
+    EdgeRater rater(device);
+    Dicer dicer(device);
+    const EdgeRates rates = rater.rates(displaced, subject.options, {});
+    for (const auto& [name, model, normal] :
+         {std::tuple{"full normals, heights", &displaced, NormalKind::full},
+          std::tuple{"first-order normals, heights", &displaced, NormalKind::firstOrder},
+          std::tuple{"limit normals, heights", &displaced, NormalKind::limit},
+          std::tuple{"limit normals, no heights", &smooth, NormalKind::limit}}) {
+        std::vector<double> times;
+        std::uint32_t vertices = 0;
+        for (int round = 0; round <= kRounds; ++round) {
+            const DicedMesh mesh = dicer.dice(*model, rates, {.normal = normal});
+            vertices = mesh.vertexCount;
+            if (round > 0) times.push_back(mesh.milliseconds);
+        }
+        std::cout << fmt::format("dice: {:30} {:8} vertices {:8.1f} ms (least {:.1f}), {:.2f} million a second\n", name, vertices,
+                                 median(times), *std::ranges::min_element(times), vertices / median(times) / 1e3);
+    }
     return 0;
 }
 
@@ -205,6 +231,25 @@ int benchCold() {
     return 0;
 }
 
+/// Limit points with both first derivatives a second: the CPU evaluators of others.
+int benchEvaluators() {
+#ifdef RELIEF_EVALUATORS
+    constexpr int kRate = 16, kIsolation = 3;
+    const std::string path = cagePath();
+    const Cage cage = readCage(path);
+    const std::vector<bench::PatchPoint> points = bench::gridPoints(cage, kRate);
+    std::cout << fmt::format("evaluators: {} at rate {}, isolation {}: {} points with first derivatives, {} threads\n",
+                             path, kRate, kIsolation, points.size(), std::thread::hardware_concurrency());
+    for (const bench::EvaluatorTime& time : bench::timeEvaluators(cage, kIsolation, points))
+        std::cout << fmt::format(
+            "{:28} {:8.1f} ms  {:6.2f} Mpoints/s   off by {:.1e}, slopes {:.1e}, end caps {:.1e}\n", time.name, time.ms,
+            double(points.size()) / time.ms / 1e3, time.pointError, time.slopeError, time.endCapError);
+#else
+    std::cout << "evaluators: relief_bench was built without Embree or OpenMP\n";
+#endif
+    return 0;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -214,8 +259,10 @@ int main(int argc, char** argv) {
             return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
         };
         if (runs("frame")) benchFrame();
+        if (runs("dice")) benchDice();
         if (runs("split")) benchSplit();
         if (runs("cold")) benchCold();
+        if (runs("evaluators")) benchEvaluators();
         return 0;
     } catch (const relief::Error& error) {
         std::cerr << "relief_bench: " << error.what() << '\n';

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "dice.glsl"
 
 // The samples inside faces, a workgroup a tile. All samples of a tile lie in one leaf patch, so the control points are fetched
@@ -7,13 +8,17 @@
 layout(local_size_x = kDiceGroup) in;
 
 #ifndef RELIEF_TRIANGLES
-shared vec3 tilePoints[20];
-shared vec2 tileTexPoints[20];
+const uint kMostPoints = 20u;
+shared vec3 sharedPoints[kMostPoints];
+shared vec2 sharedTexPoints[kMostPoints];
+vec3 ownPoints[kMostPoints];
+vec2 ownTexPoints[kMostPoints];
 
-vec3 tilePoint(uint i) { return tilePoints[i]; }
-vec2 tileTexPoint(uint i) { return tileTexPoints[i]; }
+vec3 tilePoint(uint i) { return ownPoints[i]; }
+vec2 tileTexPoint(uint i) { return ownTexPoints[i]; }
 #define RELIEF_PATCH_POINT tilePoint
 #define RELIEF_TEX_PATCH_POINT tileTexPoint
+#define RELIEF_UNROLL [[unroll]] // constant places in the arrays
 #endif
 #include "displaced.glsl"
 
@@ -56,10 +61,15 @@ void main() {
 
 void loadTile(Patch patch_) {
     uint lane = gl_LocalInvocationID.x;
-    if (lane < patchSize(patch_.type)) tilePoints[lane] = patchPoint(patch_.firstPoint + lane);
+    if (lane < patchSize(patch_.type)) sharedPoints[lane] = patchPoint(patch_.firstPoint + lane);
     if (kHasTexCoords && lane < patchSize(patch_.texType))
-        tileTexPoints[lane] = texPatchPoint(patch_.texFirstPoint + lane);
+        sharedTexPoints[lane] = texPatchPoint(patch_.texFirstPoint + lane);
     barrier();
+    // Here, outside all branches, where a load with a constant address is one load for all lanes.
+    [[unroll]] for (uint i = 0u; i < kMostPoints; ++i) ownPoints[i] = sharedPoints[i];
+    if (kHasTexCoords) {
+        [[unroll]] for (uint i = 0u; i < kMostPoints; ++i) ownTexPoints[i] = sharedTexPoints[i];
+    }
 }
 
 void main() {

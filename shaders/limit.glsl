@@ -8,6 +8,7 @@
 #ifndef RELIEF_PATCH_POINT
 #define RELIEF_PATCH_POINT patchPoint
 #define RELIEF_TEX_PATCH_POINT texPatchPoint
+#define RELIEF_UNROLL
 #endif
 
 // OpenSubdiv's own basis functions, as its library prints them (the build writes the file): what triangles are drawn
@@ -125,7 +126,7 @@ LimitFrame regular(uint firstPoint, uint param1, vec2 uv) {
     CurveWeights u, v;
     regularWeights(uv, param1, u, v);
     precise LimitFrame f = kNoFrame;
-    for (uint row = 0u; row < 4u; ++row) {
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
         uint first = firstPoint + 4u * row;
         vec3 a = RELIEF_PATCH_POINT(first), b = RELIEF_PATCH_POINT(first + 1u), c = RELIEF_PATCH_POINT(first + 2u), d = RELIEF_PATCH_POINT(first + 3u);
         precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
@@ -146,7 +147,7 @@ LimitFrame regularTexture(uint firstPoint, uint param1, vec2 uv) {
     CurveWeights u, v;
     regularWeights(uv, param1, u, v);
     vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
-    for (uint row = 0u; row < 4u; ++row) {
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
         uint first = firstPoint + 4u * row;
         vec2 a = RELIEF_TEX_PATCH_POINT(first), b = RELIEF_TEX_PATCH_POINT(first + 1u), c = RELIEF_TEX_PATCH_POINT(first + 2u), d = RELIEF_TEX_PATCH_POINT(first + 3u);
         vec2 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
@@ -170,7 +171,7 @@ const uint kGregoryRows[4] = {0u | 1u << 5 | 7u << 10 | 5u << 15, 2u | 3u << 5 |
 LimitFrame gregory(bool isTexture, uint firstPoint, vec2 uv) {
     CurveWeights u = bezierWeights(uv.x), v = bezierWeights(uv.y);
     precise LimitFrame f = kNoFrame;
-    for (uint k = 0u; k < 16u; ++k) {
+    RELIEF_UNROLL for (uint k = 0u; k < 16u; ++k) {
         uint row = k >> 2, column = k & 3u;
         uint point = (kGregoryRows[row] >> (5u * column)) & 31u;
         vec3 c = controlPoint(isTexture, firstPoint + point);

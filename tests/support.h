@@ -1,11 +1,14 @@
 // What tests of files and errors share.
 #pragma once
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <sys/resource.h>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +47,21 @@ inline void putFile(const std::string& path, std::string_view bytes) {
     ASSERT_EQ(std::fwrite(bytes.data(), 1, bytes.size(), file), bytes.size());
     ASSERT_EQ(std::fclose(file), 0);
 }
+
+/// Until the end of the scope no file can grow past so many bytes, as on a full disk.
+struct FullDisk {
+    rlimit before{};
+
+    explicit FullDisk(rlim_t bytes) {
+        std::signal(SIGXFSZ, SIG_IGN);
+        getrlimit(RLIMIT_FSIZE, &before);
+        const rlimit limit{bytes, before.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+    ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before); }
+};
 
 /// Expects `action` to throw an Error of this kind on one line that holds each of the words.
 template <typename Action>

@@ -119,6 +119,9 @@ std::string readFile(const std::string& path, std::uint64_t limit = 1ull << 32);
 
 // --- words ------------------------------------------------------------------------------------------------------
 
+/// The file name's extension with its dot, in lower case: what kind of file a name asks for.
+std::string lowerExtension(const std::string& path);
+
 /// The candidate nearest to `word` by edit distance, or "" when none is near: for "did you mean".
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates);
 

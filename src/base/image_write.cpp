@@ -1,9 +1,6 @@
 // Pictures out, whole or not at all.
 #include "base/base.h"
 
-#include <cctype>
-#include <filesystem>
-
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -25,8 +22,7 @@ bool isInteger(SampleType sample) { return sample == SampleType::uint8 || sample
 
 /// The writer's name for the extension; throws when the format cannot hold such samples.
 std::string chooseFormat(const std::string& path, SampleType sample) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& letter : extension) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+    const std::string extension = lowerExtension(path);
     if (extension == ".tif" || extension == ".tiff") return "tiff";
     if (extension == ".png") {
         if (isInteger(sample)) return "png";

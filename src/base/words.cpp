@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <filesystem>
 
 namespace relief {
 
@@ -32,6 +33,10 @@ std::string lowered(std::string_view word) {
 }
 
 } // namespace
+
+std::string lowerExtension(const std::string& path) {
+    return lowered(std::filesystem::path(path).extension().string());
+}
 
 std::string nearestWord(std::string_view word, const std::vector<std::string>& candidates) {
     // A third of the letters may be wrong; more than that is another word.

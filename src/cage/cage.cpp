@@ -1,9 +1,7 @@
 #include "cage/cage.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <span>
 
@@ -124,8 +122,7 @@ void validateCage(const Cage& cage, const std::string& name) {
 }
 
 Cage readCage(const std::string& path, const Warn& warn) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    for (char& letter : extension) letter = char(std::tolower(static_cast<unsigned char>(letter)));
+    const std::string extension = lowerExtension(path);
     if (extension != ".obj") fail(Failure::input, "{}: unknown kind of cage '{}'; use .obj", path, extension);
     return parseObj(readFile(path), path, warn);
 }

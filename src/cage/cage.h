@@ -102,4 +102,17 @@ struct DenseMesh {
 /// differ; normals that the file lacks are the area-weighted sum of the faces around a vertex.
 DenseMesh denseMesh(const Cage& cage);
 
+/// Throws Failure::usage unless the extension of `path` is one that writeMesh knows: .ply, .obj or .glb.
+void checkMeshPath(const std::string& path);
+
+/// Throws Failure::input when the format that `path` asks for cannot hold so much: 32-bit indices in .ply, 31 bits in
+/// .obj, 4 GiB in .glb. Cheap: to be asked before the triangles are made.
+void checkMeshSize(const std::string& path, std::uint64_t vertexCount, std::uint64_t triangleCount, bool hasTexCoords);
+
+/// Writes by the extension of `path`, whole or not at all, through a buffer of 1 MiB: binary .ply, .obj that reads back
+/// to the same bits, or .glb (glTF 2.0: t turned to run down, triangles without area between their indices left out).
+/// Throws as the two checks above, Failure::input for a mesh without triangles, arrays that disagree, indices out of
+/// range and numbers that are not finite, Failure::file when writing fails.
+void writeMesh(const std::string& path, const DenseMesh& mesh, ShowProgress show = ShowProgress::never);
+
 } // namespace relief

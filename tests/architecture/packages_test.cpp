@@ -18,6 +18,8 @@ const std::map<std::string, std::string> kPackageOf = {
     {"nlohmann_json", "nlohmann-json3-dev"},
     {"tinyobjloader", "libtinyobjloader-dev"},
     {"Threads", "build-essential"},
+    {"OpenMP", "build-essential"},
+    {"embree", "libembree-dev"},
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glm/glm.hpp", "libglm-dev"},
@@ -32,7 +34,7 @@ const std::map<std::string, std::string> kPackageOf = {
 };
 
 /// What no find_... names: tools, and what is loaded when relief runs.
-const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers"};
+const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "nodejs", "npm"};
 
 Names packages() {
     Names names;

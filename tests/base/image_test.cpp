@@ -1,13 +1,10 @@
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstring>
 #include <fstream>
 #include <memory>
 #include <random>
 #include <thread>
-
-#include <sys/resource.h>
 
 #include <OpenImageIO/imageio.h>
 
@@ -320,21 +317,6 @@ TEST(Image, refusesFoldersThatCannotBeWritten) {
     expectFailure(Failure::file, {folder / "none/a.png"},
                   [&] { writeImage(folder / "none/a.png", noise(2, 2, 1), SampleType::uint8); });
 }
-
-/// Until the end of the scope no file can grow past so many bytes, as on a full disk.
-struct FullDisk {
-    rlimit before{};
-
-    explicit FullDisk(rlim_t bytes) {
-        std::signal(SIGXFSZ, SIG_IGN);
-        getrlimit(RLIMIT_FSIZE, &before);
-        const rlimit limit{bytes, before.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    FullDisk(const FullDisk&) = delete;
-    FullDisk& operator=(const FullDisk&) = delete;
-    ~FullDisk() { setrlimit(RLIMIT_FSIZE, &before); }
-};
 
 TEST(Image, aFullDiskIsAnErrorAndLeavesTheOldPicture) {
     const TemporaryFolder folder;

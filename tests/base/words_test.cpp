@@ -42,6 +42,12 @@ TEST(HumanBytes, neverPrintsAThousandOfAUnit) {
     EXPECT_EQ(humanBytes(999'999'999), "1.0 GB");
 }
 
+TEST(LowerExtension, isOfTheFileAlone) {
+    EXPECT_EQ(lowerExtension("a.d/B.Tar.GLB"), ".glb");
+    EXPECT_EQ(lowerExtension("a.d/b"), "");
+    EXPECT_EQ(lowerExtension("a.d/.glb"), "");
+}
+
 TEST(Bounds, areEmptyUntilSomethingIsAdded) {
     Bounds bounds;
     EXPECT_TRUE(bounds.isEmpty());
