@@ -3,6 +3,7 @@
 
 #include "base/base.h"
 #include "cage/cage.h"
+#include "check/check.h"
 #include "displacement/displacement.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"

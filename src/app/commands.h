@@ -12,6 +12,7 @@ using Run = std::function<int()>;
 
 Run addRender(CLI::App& app);
 Run addSample(CLI::App& app);
+Run addCheck(CLI::App& app);
 Run addInfo(CLI::App& app);
 
 } // namespace relief::app

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "check/check.h"
 
 namespace relief::app {
 namespace {
@@ -12,6 +13,7 @@ using nlohmann::json;
 
 struct InfoArgs {
     std::vector<std::string> files;
+    SurfaceArgs surface; ///< what --height asks of the one cage among the files
     bool listsDevices = false, isJson = false, isQuiet = false;
 };
 
@@ -48,6 +50,27 @@ json ofCage(const std::string& path, const Warn& warn) {
             {"bytes", cage.byteCount()},
             {"bounds", ofBounds(s.bounds)},
             {"parts", parts}};
+}
+
+double fractionOf(double part, double whole) { return whole > 0 ? part / whole : 0; }
+
+/// How far the faces along the cage's edges disagree about the map.
+json ofSeams(SurfaceArgs args, const std::string& cage, bool isQuiet) {
+    args.cage = cage;
+    const Loaded loaded = load(args, {.isQuiet = isQuiet});
+    const ReferenceSurface reference(loaded.cage, loaded.options);
+    const SeamReport seams = reportSeams(loaded.surface, reference, *loaded.height);
+    const double reach = loaded.height->reach();
+    json result{{"map", args.height},
+                {"map_reach", reach},
+                {"map_seam_edges", seams.seamEdgeCount},
+                {"seam_disagreement_max", seams.max},
+                {"seam_disagreement_mean", seams.mean},
+                {"seam_max_of_reach", fractionOf(seams.max, reach)},
+                {"seam_mean_of_reach", fractionOf(seams.mean, reach)}};
+    if (seams.max > 0)
+        result["seam_disagreement_at"] = {{"face", seams.worst.face}, {"u", seams.worst.uv.x}, {"v", seams.worst.uv.y}};
+    return result;
 }
 
 json ofPicture(const std::string& path) {
@@ -117,11 +140,22 @@ void print(const json& object) {
     }
 }
 
-int info(const InfoArgs& args) {
+void checkUsage(const InfoArgs& args) {
     if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info wants files, or --devices");
-    const Warn warn = args.isQuiet ? Warn([](const std::string&) {}) : Warn(warnOnStderr);
+    if (!args.surface.height.empty() && std::ranges::count_if(args.files, isCage) != 1)
+        fail(Failure::usage, "--height {}: name the one cage that the map is for", args.surface.height);
+}
+
+int info(const InfoArgs& args) {
+    checkUsage(args);
+    const bool hasMap = !args.surface.height.empty();
+    // With a map the cage is read a second time, and warned of then.
+    const Warn warn = args.isQuiet || hasMap ? Warn([](const std::string&) {}) : Warn(warnOnStderr);
     json all = json::array();
-    for (const std::string& file : args.files) all.push_back(isCage(file) ? ofCage(file, warn) : ofPicture(file));
+    for (const std::string& file : args.files) {
+        all.push_back(isCage(file) ? ofCage(file, warn) : ofPicture(file));
+        if (isCage(file) && hasMap) all.back().update(ofSeams(args.surface, file, args.isQuiet));
+    }
     if (args.listsDevices)
         for (json& device : ofDevices()) all.push_back(std::move(device));
     if (args.isJson) {
@@ -143,12 +177,16 @@ int info(const InfoArgs& args) {
 Run addInfo(CLI::App& app) {
     auto args = std::make_shared<InfoArgs>();
     app.add_option("files", args->files, "cages (.obj), height maps, pictures")->option_text("FILE...");
+    addSurfaceOptions(app, args->surface);
     app.add_flag("--devices", args->listsDevices, "the Vulkan devices of this machine");
     app.add_flag("--json", args->isJson, "print as JSON on stdout");
     app.add_flag("-q,--quiet", args->isQuiet, "no warnings");
-    app.footer("examples:\n"
-               "  relief info cage.obj heights.exr\n"
-               "  relief info --devices");
+    app.footer(
+        "With --height, a cage is told with how far the two sides of its texture's seams disagree about that map.\n"
+        "examples:\n"
+        "  relief info cage.obj heights.exr\n"
+        "  relief info cage.obj --height heights.exr --scale 0.2\n"
+        "  relief info --devices");
     return [args] { return info(*args); };
 }
 

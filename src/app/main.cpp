@@ -21,6 +21,7 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "one picture of a displaced cage, or of a dense mesh", app::addRender},
     {"sample", "the device's own frames at given points of the surface", app::addSample},
+    {"check", "certificate: watertight, exact, one-to-one", app::addCheck},
     {"info", "what a file holds; what the devices can do", app::addInfo},
 };
 

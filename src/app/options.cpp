@@ -31,7 +31,7 @@ CLI::Option* listed(CLI::Option* option, const char* value, const char* group) {
     return option->option_text(value)->group(group);
 }
 
-CLI::Option* addWord(CLI::App& app, const char* name, std::string& word, const char* help,
+CLI::Option* addWord(CLI::App& app, const char* name, std::string& word, const std::string& help,
                      const std::vector<std::string>& words) {
     return app.add_option(name, word, help)->check(CLI::IsMember(words));
 }
@@ -40,19 +40,6 @@ CLI::Option* addWord(CLI::App& app, const char* name, std::string& word, const c
 template <typename T>
 CLI::Option* addNumbers(CLI::App& app, const char* name, std::vector<T>& numbers, const char* help, int count) {
     return app.add_option(name, numbers, help)->delimiter(',')->expected(count);
-}
-
-void addTriangles(CLI::App& app, PictureArgs& args) {
-    listed(addWord(app, "--path", args.path,
-                   "how triangles are made: tessellation, grid or dice (tessellation where there is one)",
-                   {"tessellation", "grid", "dice"}),
-           "PATH", "triangles");
-    CLI::Option* rate = app.add_option("--rate", args.rate, "segments a cage edge, the same everywhere");
-    listed(rate, "N", "triangles");
-    listed(app.add_option("--edge-pixels", args.edgePixels, "segments of this length on screen (2)")
-               ->check(numberIn(1e-3, 1e6))
-               ->excludes(rate),
-           "P", "triangles");
 }
 
 void addCamera(CLI::App& app, PictureArgs& args) {
@@ -121,6 +108,10 @@ void addOutput(CLI::App& app, Output& output) {
 
 void addSurface(CLI::App& app, SurfaceArgs& args) {
     app.add_option("cage", args.cage, "control cage or mesh (.obj)")->required()->option_text("CAGE");
+    addSurfaceOptions(app, args);
+}
+
+void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     listed(addWord(app, "--scheme", args.scheme,
                    "catmark, loop, bilinear, or none: draw the polygons as they are (default: none for a mesh of "
                    "triangles, else catmark)",
@@ -143,6 +134,19 @@ void addSurface(CLI::App& app, SurfaceArgs& args) {
            "WRAP", group);
 }
 
+void addTriangles(CLI::App& app, TriangleArgs& args, const std::string& defaultPath) {
+    listed(addWord(app, "--path", args.path,
+                   fmt::format("how triangles are made: tessellation, grid or dice ({})", defaultPath),
+                   {"tessellation", "grid", "dice"}),
+           "PATH", "triangles");
+    CLI::Option* rate = app.add_option("--rate", args.rate, "segments a cage edge, the same everywhere");
+    listed(rate, "N", "triangles");
+    listed(app.add_option("--edge-pixels", args.edgePixels, "segments of this length on screen (2)")
+               ->check(numberIn(1e-3, 1e6))
+               ->excludes(rate),
+           "P", "triangles");
+}
+
 void addNormal(CLI::App& app, std::string& word) {
     listed(addWord(app, "--normal", word, "limit, first-order (no curvature term) or full (full)",
                    {"limit", "first-order", "full"}),
@@ -154,7 +158,7 @@ void addDevice(CLI::App& app, std::string& name) {
 }
 
 void addPicture(CLI::App& app, PictureArgs& args) {
-    addTriangles(app, args);
+    addTriangles(app, args, "tessellation where there is one");
     addNormal(app, args.normal);
     addCamera(app, args);
     addShading(app, args);
@@ -181,6 +185,11 @@ void checkValidation(const Device& device) {
 
 NormalKind normalKind(const std::string& word) {
     return word == "limit" ? NormalKind::limit : word == "first-order" ? NormalKind::firstOrder : NormalKind::full;
+}
+
+Path pathOf(const std::string& word, const Device& device) {
+    if (word.empty()) return device.traits().hasTessellation ? Path::tessellation : Path::grid;
+    return word == "grid" ? Path::grid : word == "dice" ? Path::dice : Path::tessellation;
 }
 
 Loaded load(const SurfaceArgs& args, const Output& output) {

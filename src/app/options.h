@@ -26,10 +26,13 @@ struct SurfaceArgs {
     std::string wrap = "repeat";
 };
 
-struct PictureArgs {
-    std::string path; ///< "": tessellation where the device has it
+struct TriangleArgs {
+    std::string path; ///< "": what suits the verb
     std::optional<int> rate;
     double edgePixels = 2;
+};
+
+struct PictureArgs : TriangleArgs {
     std::string normal = "full", show = "shaded";
     std::vector<int> size{1024, 1024};
     CameraOptions camera;
@@ -46,6 +49,8 @@ struct PictureArgs {
 
 void addOutput(CLI::App& app, Output& output);
 void addSurface(CLI::App& app, SurfaceArgs& args);
+void addSurfaceOptions(CLI::App& app, SurfaceArgs& args); ///< the same without the cage itself
+void addTriangles(CLI::App& app, TriangleArgs& args, const std::string& defaultPath);
 void addNormal(CLI::App& app, std::string& word);
 void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
@@ -67,5 +72,7 @@ Loaded load(const SurfaceArgs& args, const Output& output);
 void checkValidation(const Device& device);
 
 NormalKind normalKind(const std::string& word);
+/// "": tessellation where the device has it, else grid.
+Path pathOf(const std::string& word, const Device& device);
 
 } // namespace relief::app

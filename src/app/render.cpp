@@ -23,11 +23,6 @@ Show showOf(const std::string& word) {
     return words.at(word);
 }
 
-Path pathOf(const std::string& word, const Device& device) {
-    if (word.empty()) return device.traits().hasTessellation ? Path::tessellation : Path::grid;
-    return word == "grid" ? Path::grid : word == "dice" ? Path::dice : Path::tessellation;
-}
-
 /// Points for framing: a coarse reference is enough.
 std::vector<dvec3> outlineOf(const Loaded& loaded) {
     if (loaded.dense) return {loaded.dense->positions.begin(), loaded.dense->positions.end()};

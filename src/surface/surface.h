@@ -61,6 +61,17 @@ std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cag
 /// (u,v) of the point at x in [0,1] along side `side`.
 dvec2 sidePoint(int sideCount, int side, double x);
 
+/// All faces along every edge, of smooth edges too (Surface::touches lists only where normals must be agreed).
+struct EdgeTouches {
+    std::vector<std::uint32_t> firsts; ///< edgeCount + 1 entries into touches
+    std::vector<Touch> touches;        ///< of each edge in index order of the faces: the owner comes first
+
+    [[nodiscard]] std::span<const Touch> of(std::size_t edge) const {
+        return std::span(touches).subspan(firsts[edge], firsts[edge + 1] - firsts[edge]);
+    }
+};
+EdgeTouches incidentTouches(const Surface& surface);
+
 /// Limit position and its derivatives by face coordinates (u,v).
 struct LimitFrame {
     dvec3 p{0}, pu{0}, pv{0}, puu{0}, puv{0}, pvv{0};

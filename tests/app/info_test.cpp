@@ -61,6 +61,58 @@ TEST(Info, ofMapsShowsTheRangeOfEveryChannel) {
     EXPECT_TRUE(contains(text, "((-0.25, 0.5), (1, 3))")) << text;
 }
 
+/// A 2 x 2 x 2 cube without corners rounded off, whose first face alone has an island in the bright half of the map.
+std::string cubeWithSeams() {
+    std::string text;
+    for (int i = 0; i < 8; ++i) text += fmt::format("v {} {} {}\n", i & 1, i >> 1 & 1, i >> 2);
+    text += "vt 0.2 0.5\nvt 0.3 0.5\nvt 0.3 0.6\nvt 0.2 0.6\nvt 0.7 0.5\nvt 0.8 0.5\nvt 0.8 0.6\nvt 0.7 0.6\n";
+    const int faces[6][4] = {{1, 5, 7, 3}, {2, 4, 8, 6}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 3, 4, 2}, {5, 6, 8, 7}};
+    for (int face = 0; face < 6; ++face) {
+        const int first = face == 0 ? 5 : 1;
+        text += "f";
+        for (int k = 0; k < 4; ++k) text += fmt::format(" {}/{}", faces[face][k], first + k);
+        text += "\n";
+    }
+    return text;
+}
+
+TEST(Info, ofACageAndItsMapSaysHowFarSeamsDisagree) {
+    const TemporaryFolder folder;
+    putFile(folder / "cube.obj", cubeWithSeams());
+    Image halves{64, 16, 1, std::vector<float>(64 * 16, 0.25f)};
+    for (int y = 0; y < 16; ++y)
+        for (int x = 32; x < 64; ++x) *halves.at(x, y) = 0.75f;
+    writeImage(folder / "halves.exr", halves, SampleType::real);
+    const Words words{"info", folder / "cube.obj", "--height", folder / "halves.exr"};
+    const nlohmann::json cube = jsonOf(relief(words, "--scale 0.2 --json")).at(0);
+    EXPECT_EQ(cube.at("kind"), "cage");
+    EXPECT_EQ(cube.at("map"), folder / "halves.exr");
+    EXPECT_NEAR(cube.at("map_reach"), 0.15, 1e-7);
+    EXPECT_NEAR(cube.at("seam_disagreement_max"), 0.1, 1e-7);
+    EXPECT_NEAR(cube.at("seam_max_of_reach"), 2.0 / 3, 1e-6);
+    EXPECT_NEAR(cube.at("seam_mean_of_reach").get<double>() * 0.15, cube.at("seam_disagreement_mean"), 1e-9);
+    EXPECT_GT(cube.at("seam_disagreement_mean"), 0.1 * 4 / 12 - 1e-6) << "4 of at most 12 seams";
+    EXPECT_EQ(cube.at("seam_disagreement_at").at("face"), 0);
+
+    const std::string text = relief(words).out;
+    EXPECT_TRUE(contains(text, "\n  seam disagreement max        0.5\n")) << text;
+    EXPECT_FALSE(jsonOf(relief({"info", folder / "cube.obj", "--json"})).at(0).contains("map"));
+
+    writeImage(folder / "flat.png", {4, 4, 1, std::vector<float>(16, 0.5f)}, SampleType::uint8);
+    const Outcome flat = relief({"info", folder / "cube.obj", "--height", folder / "flat.png"}, "--scale 1");
+    EXPECT_FALSE(contains(flat.out, "disagreement")) << flat.out;
+    EXPECT_TRUE(contains(flat.err, "8-bit")) << flat.err;
+}
+
+TEST(Info, withAMapWantsOneCage) {
+    const TemporaryFolder folder;
+    writeImage(folder / "map.exr", sineImage(8, 1), SampleType::real);
+    const std::string height = "--height " + (folder / "map.exr");
+    expectRefused(relief({"info", folder / "map.exr"}, height), Failure::usage, {"one cage", "map.exr"});
+    expectRefused(relief({"info", cagePath("cube"), cagePath("ball")}, height), Failure::usage, {"one cage"});
+    expectRefused(relief({"info", cagePath("cube")}, "--height nothing.exr"), Failure::file, {"nothing.exr"});
+}
+
 TEST(Info, ofDevicesNamesThoseThatRenderUses) {
     const nlohmann::json list = jsonOf(relief({"info", "--devices", "--json"}));
     ASSERT_FALSE(list.empty());

@@ -4,7 +4,7 @@
 namespace relief::test {
 namespace {
 
-const Words kVerbs = {"render", "sample", "info"};
+const Words kVerbs = {"render", "sample", "check", "info"};
 
 TEST(Help, ofEveryVerbShowsExamples) {
     for (const std::string& verb : kVerbs) {

@@ -1,0 +1,187 @@
+#include "app/certificate.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relief::app {
+namespace {
+
+using nlohmann::json;
+
+/// What is promised outside end caps, over the diagonal of the cage's bounding box.
+constexpr double kMostPointError = 1e-6;
+
+/// Rounding of a leaf patch's points grows with its magnification; up to the default isolation it is promised away.
+double mostTangentError(int isolation) { return std::ldexp(1e-5, std::max(isolation - SurfaceOptions().isolation, 0)); }
+
+void addBroken(std::vector<std::string>& broken, const PathReport& report) {
+    const Watertightness& w = report.triangles;
+    const auto add = [&](std::uint64_t count, const char* what) {
+        if (count > 0) broken.push_back(fmt::format("{}: {} {}", report.path, count, what));
+    };
+    add(w.openEdges, "open edges");
+    add(w.tJunctions, "T-junctions");
+    add(w.notFinite, "vertices that are not finite");
+    if (!w.isBoundaryWhole())
+        broken.push_back(fmt::format("{}: {} segments on the cage's boundary instead of {}", report.path,
+                                     w.boundarySegments, w.expectedBoundarySegments));
+    add(report.crackPixels.value_or(0), "pixels see a crack");
+}
+
+// --- JSON
+
+json ofPlace(const SurfacePlace& place) { return {{"face", place.face}, {"u", place.uv.x}, {"v", place.uv.y}}; }
+
+json ofPath(const PathReport& report) {
+    const Watertightness& w = report.triangles;
+    return {{"path", report.path},
+            {"watertight", w.isWatertight() && report.crackPixels.value_or(0) == 0},
+            {"triangles", w.triangles},
+            {"distinct_points", w.distinctPoints},
+            {"degenerate_triangles", w.degenerateTriangles},
+            {"open_edges", w.openEdges},
+            {"t_junctions", w.tJunctions},
+            {"not_finite", w.notFinite},
+            {"boundary_segments", w.boundarySegments},
+            {"expected_boundary_segments", w.expectedBoundarySegments},
+            {"largest_gap_ulps", w.largestGapUlps},
+            {"largest_gap_at", {w.worstPlace.x, w.worstPlace.y, w.worstPlace.z}},
+            {"crack_pixels", report.crackPixels ? json(*report.crackPixels) : json()}};
+}
+
+json ofError(const ErrorSummary& error) {
+    return {{"max", error.max}, {"rms", error.rms}, {"max_at", ofPlace(error.worst)}};
+}
+
+json ofRegion(const RegionErrors& errors) {
+    return {{"points", errors.count},
+            {"points_without_normal", errors.countWithoutNormal},
+            {"point", ofError(errors.point)},
+            {"tangents", ofError(errors.tangent)},
+            {"limit_normal_degrees", ofError(errors.limitNormal)},
+            {"displaced_normal_degrees", ofError(errors.normal)}};
+}
+
+json ofCurvature(const CurvatureReport& report) {
+    return {{"points", report.count},
+            {"points_without_curvature", report.countWithoutCurvature},
+            {"min_one_plus_h_kappa", report.lowestFactor},
+            {"min_at", ofPlace(report.lowestAt)},
+            {"area", report.area},
+            {"folded_area", report.foldedArea},
+            {"folded_fraction", report.foldedFraction()},
+            {"first_order_normal_max_degrees", report.maxNormalAngle},
+            {"first_order_normal_max_at", ofPlace(report.maxNormalAngleAt)},
+            {"first_order_normal_mean_degrees", report.meanNormalAngle}};
+}
+
+json ofSeams(const SeamReport& seams, double reach) {
+    return {{"edges", seams.seamEdgeCount},
+            {"length", seams.length},
+            {"disagreement_max", seams.max},
+            {"disagreement_mean", seams.mean},
+            {"max_of_reach", reach > 0 ? seams.max / reach : 0},
+            {"max_at", ofPlace(seams.worst)}};
+}
+
+// --- words
+
+std::string words(const SurfacePlace& place) {
+    return fmt::format("face {} ({:.4g}, {:.4g})", place.face, place.uv.x, place.uv.y);
+}
+
+std::string pathTable(const Certificate& c) {
+    std::string text = fmt::format("  {:14}{:>12}{:>12}{:>13}{:>11}{:>14}{:>15}\n", "path", "triangles", "open edges",
+                                   "T-junctions", "gap (ulp)", "crack pixels", "boundary");
+    for (const PathReport& report : c.paths) {
+        const Watertightness& w = report.triangles;
+        text += fmt::format("  {:14}{:>12}{:>12}{:>13}{:>11.4g}{:>14}{:>15}\n", report.path, w.triangles, w.openEdges,
+                            w.tJunctions, w.largestGapUlps,
+                            report.crackPixels ? fmt::format("{}", *report.crackPixels) : "-",
+                            fmt::format("{} of {}", w.boundarySegments, w.expectedBoundarySegments));
+    }
+    return text;
+}
+
+std::string regionTable(const char* title, const RegionErrors& errors) {
+    if (errors.count == 0) return "";
+    std::string text = fmt::format("  {:28}{:>11}{:>11}   worst at\n",
+                                   fmt::format("{}, {} points", title, errors.count), "max", "rms");
+    const auto row = [&](const char* name, const ErrorSummary& error) {
+        text += fmt::format("    {:26}{:>11.2e}{:>11.2e}   {}\n", name, error.max, error.rms, words(error.worst));
+    };
+    row("points / diagonal", errors.point);
+    row("tangents / diagonal", errors.tangent);
+    row("limit normals, degrees", errors.limitNormal);
+    row("displaced normals, degrees", errors.normal);
+    return text;
+}
+
+std::string curvatureWords(const CurvatureReport& r) {
+    std::string text = fmt::format("  least 1 + h kappa is {:.4g}, at {}\n", r.lowestFactor, words(r.lowestAt));
+    if (r.foldedArea > 0)
+        text += fmt::format("  The map folds the surface over itself on {:.3g} % of its area: heights reach past the "
+                            "centre of curvature there. Lower --scale, or smooth the cage.\n",
+                            100 * r.foldedFraction());
+    else
+        text += "  No folds: the displaced surface is locally one-to-one.\n";
+    return text + fmt::format("  Normals without the curvature term would be off by up to {:.3g} degrees, {:.3g} on "
+                              "average.\n",
+                              r.maxNormalAngle, r.meanNormalAngle);
+}
+
+/// Heights nearer than this part of the map's reach are the same: those of a float map are not told apart.
+constexpr double kSameHeight = 1e-7;
+
+std::string seamWords(const SeamReport& seams, double reach) {
+    if (seams.seamEdgeCount == 0) return "  The map has no seams on this cage.\n";
+    if (seams.max <= kSameHeight * reach)
+        return fmt::format("  The two sides of {} seam edges agree.\n", seams.seamEdgeCount);
+    return fmt::format("  The two sides of {} seam edges disagree by up to {:.3g} cage units ({:.3g} % of the map's "
+                       "reach), {:.3g} on average, most at {}; the owner's side is drawn on both.\n",
+                       seams.seamEdgeCount, seams.max, reach > 0 ? 100 * seams.max / reach : 0, seams.mean,
+                       words(seams.worst));
+}
+
+} // namespace
+
+std::vector<std::string> Certificate::brokenPromises() const {
+    std::vector<std::string> broken;
+    for (const PathReport& report : paths) addBroken(broken, report);
+    const auto check = [&](const ErrorSummary& error, double most, const char* what) {
+        if (error.max > most)
+            broken.push_back(fmt::format("{} are off by {:.2e} of the diagonal at {}, more than {:.0e}", what,
+                                         error.max, words(error.worst), most));
+    };
+    check(frames.regular.point, kMostPointError, "points");
+    check(frames.regular.tangent, mostTangentError(isolation), "tangents");
+    return broken;
+}
+
+json toJson(const Certificate& c) {
+    json all{{"cage", c.cage},
+             {"device", c.device},
+             {"faces", c.faceCount},
+             {"isolation", c.isolation},
+             {"diagonal", c.diagonal},
+             {"paths", json::array()},
+             {"frames", {{"regular", ofRegion(c.frames.regular)}, {"end_caps", ofRegion(c.frames.endCaps)}}},
+             {"curvature", ofCurvature(c.curvature)},
+             {"broken_promises", c.brokenPromises()}};
+    for (const PathReport& report : c.paths) all["paths"].push_back(ofPath(report));
+    if (!c.height.empty()) all["height"] = c.height, all["reach"] = c.reach;
+    if (c.seams) all["seams"] = ofSeams(*c.seams, c.reach);
+    return all;
+}
+
+std::string toText(const Certificate& c) {
+    std::string text = fmt::format("{}{} on {}\n", c.cage, c.height.empty() ? "" : " with " + c.height, c.device);
+    text += "watertight\n" + pathTable(c);
+    text += "exact, against a double-precision reference\n" + regionTable("outside end caps", c.frames.regular) +
+            regionTable("in end caps", c.frames.endCaps);
+    if (!c.height.empty()) text += "one-to-one\n" + curvatureWords(c.curvature);
+    if (c.seams) text += "seams\n" + seamWords(*c.seams, c.reach);
+    return text;
+}
+
+} // namespace relief::app

@@ -1,0 +1,36 @@
+// What `relief check` has found out, as JSON and as words.
+#pragma once
+
+#include <optional>
+
+#include <nlohmann/json.hpp>
+
+#include "check/check.h"
+
+namespace relief::app {
+
+/// The triangles of one path.
+struct PathReport {
+    std::string path;
+    Watertightness triangles;
+    std::optional<std::uint64_t> crackPixels; ///< over all views; only of surfaces that enclose a volume
+};
+
+struct Certificate {
+    std::string cage, height, device; ///< height: "" without a map
+    std::size_t faceCount = 0;
+    int isolation = 0;
+    double diagonal = 0, reach = 0; ///< cage units; largest height of the map
+    std::vector<PathReport> paths;
+    FrameErrors frames;
+    CurvatureReport curvature;
+    std::optional<SeamReport> seams; ///< with a map
+
+    /// One entry for each promise that is broken: "grid: 3 open edges". Folds and seams are the map's, not ours.
+    [[nodiscard]] std::vector<std::string> brokenPromises() const;
+};
+
+nlohmann::json toJson(const Certificate& certificate);
+std::string toText(const Certificate& certificate);
+
+} // namespace relief::app

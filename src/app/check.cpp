@@ -1,0 +1,177 @@
+#include <cmath>
+#include <iostream>
+
+#include "app/certificate.h"
+#include "app/commands.h"
+
+namespace relief::app {
+namespace {
+
+struct CheckArgs {
+    SurfaceArgs surface;
+    TriangleArgs triangles;
+    Output output;
+    std::size_t pointCount = 200'000;
+    std::string normal = "full", heatmap, device;
+};
+
+constexpr std::size_t kPointsAtOnce = 1u << 18; // keeps the device's buffers below 40 MB
+constexpr int kPictureSide = 1024;              // of the views, and what --edge-pixels are measured in
+
+/// Azimuth and elevation: along the axes, from both sides.
+constexpr double kViews[][2] = {{0, 0}, {90, 0}, {180, 0}, {270, 0}, {0, 90}, {0, -90}};
+
+// --- triangles
+
+std::vector<std::string> pathsOf(const CheckArgs& args, const DeviceTraits& traits) {
+    if (!args.triangles.path.empty()) return {args.triangles.path};
+    if (traits.hasTessellation && traits.hasTransformFeedback) return {"tessellation", "grid", "dice"};
+    return {"grid", "dice"};
+}
+
+/// Measures one path after another.
+class PathChecker {
+public:
+    PathChecker(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args)
+        : device_(device), model_(model), args_(args), rater_(device),
+          renderer_(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1}),
+          canSeeCracks_(enclosesVolume(loaded.surface)) {
+        const ReferenceSurface coarse(loaded.cage, {.scheme = loaded.options.scheme, .isolation = 2});
+        points_ = outline(coarse, loaded.heightMap());
+    }
+
+    /// `shift`: how far the crack pictures move every other vertex, cage units.
+    PathReport check(const std::string& path, double shift) {
+        RenderOptions options;
+        options.path = pathOf(path, device_);
+        options.rate = args_.triangles.rate;
+        options.edgePixels = args_.triangles.edgePixels;
+        options.normal = normalKind(args_.normal);
+        options.lighting.castsShadows = false;
+        for (const dvec3& p : points_) options.bounds.add(p);
+        PathReport report{.path = path, .triangles = checkTriangles(options)};
+        if (canSeeCracks_) report.crackPixels = countCrackPixels(options, shift);
+        return report;
+    }
+
+private:
+    Watertightness checkTriangles(const TriangleOptions& options) {
+        const View view = viewOf(frameCamera(points_, {}, 1), kPictureSide);
+        const EdgeRates rates = rater_.rates(model_, options, view);
+        return checkWatertight(captureTriangles(device_, model_, options, rates), boundarySegments(model_, rates));
+    }
+
+    std::uint64_t countCrackPixels(RenderOptions options, double shift) {
+        const dvec3 aslant = glm::normalize(dvec3(3, 4, 5)); // no view looks along it
+        std::uint64_t count = 0;
+        for (const auto& [azimuth, elevation] : kViews) {
+            options.camera = frameCamera(points_, {.azimuth = azimuth, .elevation = elevation}, 1);
+            count += renderer_.crackPixels(model_, options, vec3(shift * aslant));
+        }
+        return count;
+    }
+
+    Device& device_;
+    const Model& model_;
+    const CheckArgs& args_;
+    EdgeRater rater_;
+    Renderer renderer_;
+    bool canSeeCracks_;
+    std::vector<dvec3> points_;
+};
+
+// --- points
+
+std::vector<SampleResult> sampleDevice(Device& device, const Model& model, std::span<const SampleQuery> queries,
+                                       NormalKind normal) {
+    SurfaceSampler sampler(device);
+    std::vector<SampleResult> results;
+    results.reserve(queries.size());
+    for (std::size_t first = 0; first < queries.size(); first += kPointsAtOnce) {
+        const auto part = queries.subspan(first, std::min(kPointsAtOnce, queries.size() - first));
+        const auto frames = sampler.sample(model, part, {.firstRow = first, .normal = normal});
+        results.insert(results.end(), frames.begin(), frames.end());
+    }
+    return results;
+}
+
+/// Frames, curvature and seams from one query of the device.
+void checkPoints(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args,
+                 Certificate& certificate) {
+    const SurfaceSamples samples = sampleEverywhere(loaded.surface, args.pointCount);
+    const NormalKind normal = normalKind(args.normal);
+    const std::vector<SampleResult> results = sampleDevice(device, model, samples.queries, normal);
+    const ReferenceSurface reference(loaded.cage, loaded.options);
+    certificate.frames =
+        compareFrames({&reference, loaded.heightMap(), normal, certificate.diagonal}, samples.queries, results);
+    certificate.curvature = reportCurvature(samples, results);
+    if (loaded.height) certificate.seams = reportSeams(loaded.surface, reference, *loaded.height);
+}
+
+// --- the command
+
+Certificate certify(const CheckArgs& args, const Loaded& loaded) {
+    Device device({.name = args.device});
+    const Model model(
+        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    const std::vector<std::string> paths = pathsOf(args, device.traits());
+    Progress progress("checking", 1 + paths.size(), args.output.progress);
+
+    Certificate certificate{.cage = args.surface.cage,
+                            .height = args.surface.height,
+                            .device = device.traits().name,
+                            .faceCount = loaded.surface.faces.size(),
+                            .isolation = loaded.options.isolation,
+                            .diagonal = summarize(loaded.cage).bounds.diagonal(),
+                            .reach = loaded.height ? loaded.height->reach() : 0};
+    checkPoints(device, model, loaded, args, certificate);
+    progress.advance();
+    // DESIGN: 4 % of a face opens any crack to some pixels.
+    const double shift = 0.04 * std::sqrt(certificate.curvature.area / double(certificate.faceCount));
+    PathChecker checker(device, model, loaded, args);
+    for (const std::string& path : paths) {
+        certificate.paths.push_back(checker.check(path, shift));
+        progress.advance();
+    }
+    checkValidation(device);
+    return certificate;
+}
+
+int check(const CheckArgs& args) {
+    const Loaded loaded = load(args.surface, args.output);
+    if (loaded.dense)
+        fail(Failure::usage, "{}: certificates are for subdivision surfaces; name its --scheme", args.surface.cage);
+    const Certificate certificate = certify(args, loaded);
+    if (args.output.isJson)
+        std::cout << toJson(certificate).dump(2) << '\n';
+    else if (!args.output.isQuiet)
+        std::cout << toText(certificate);
+    std::cout.flush(); // before the word on stderr
+    const std::vector<std::string> broken = certificate.brokenPromises();
+    if (!broken.empty()) fail(Failure::check, "{}: {}", args.surface.cage, fmt::join(broken, "; "));
+    return 0;
+}
+
+} // namespace
+
+Run addCheck(CLI::App& app) {
+    auto args = std::make_shared<CheckArgs>();
+    addSurface(app, args->surface);
+    addTriangles(app, args->triangles, "all that the device has");
+    addNormal(app, args->normal);
+    app.add_option("--points", args->pointCount, "points that are compared with the reference, about (200000)")
+        ->check(CLI::Range(1, 100'000'000))
+        ->option_text("N");
+    app.add_option("--heatmap", args->heatmap, "picture of where the errors are")->option_text("OUT.png");
+    addDevice(app, args->device);
+    addOutput(app, args->output);
+    app.footer(
+        "Ends with 6 when the triangles are not watertight or the frames not exact; folds and seams that disagree\n"
+        "are told, and are the map's.\n"
+        "examples:\n"
+        "  relief check cage.obj --height map.exr --scale 0.2\n"
+        "  relief check cage.obj --path dice --rate 16 --json");
+    return [args] { return check(*args); };
+}
+
+} // namespace relief::app

@@ -1,0 +1,90 @@
+// Where a displacement along the normal folds the surface over itself, and what leaving out curvature costs.
+#include <algorithm>
+#include <cmath>
+
+#include "check/check.h"
+#include "shared/displacement.h"
+
+namespace relief {
+namespace {
+
+LimitFrame frameOf(const SampleResult& r) {
+    return {.p = dvec3(r.p),
+            .pu = dvec3(r.pu),
+            .pv = dvec3(r.pv),
+            .puu = dvec3(r.puu),
+            .puv = dvec3(r.puv),
+            .pvv = dvec3(r.pvv)};
+}
+
+/// Unit normal, its derivatives, and the area of the parallelogram of p_u and p_v.
+struct NormalFrame {
+    dvec3 n, nu, nv;
+    double area;
+
+    explicit NormalFrame(const LimitFrame& f) {
+        const dvec3 c = glm::cross(f.pu, f.pv);
+        area = glm::length(c);
+        n = c / area;
+        nu = formulas::normalDerivative(n, area, f.pu, f.pv, f.puu, f.puv);
+        nv = formulas::normalDerivative(n, area, f.pu, f.pv, f.puv, f.pvv);
+    }
+};
+
+/// Eigenvalues of I^-1 II with I = dP.dP and II = dn.dP (do Carmo, section 3.3, with the sign of dn turned).
+Curvatures curvaturesOf(const LimitFrame& f, const NormalFrame& normal) {
+    const double E = glm::dot(f.pu, f.pu), F = glm::dot(f.pu, f.pv), G = glm::dot(f.pv, f.pv);
+    const double e = glm::dot(normal.nu, f.pu), g = glm::dot(normal.nv, f.pv);
+    const double m = 0.5 * (glm::dot(normal.nu, f.pv) + glm::dot(normal.nv, f.pu));
+    const double determinant = E * G - F * F;
+    const double mean = 0.5 * (e * G - 2 * m * F + g * E) / determinant;
+    const double gauss = (e * g - m * m) / determinant;
+    const double spread = std::sqrt(std::max(mean * mean - gauss, 0.0));
+    return {mean - spread, mean + spread};
+}
+
+/// Degrees between the full and the first-order normal of the displaced surface.
+double normalAngle(const LimitFrame& f, const NormalFrame& normal, const SampleResult& r) {
+    const dvec2 dh = formulas::heightGradient(dvec2(r.gradient), dmat2(dvec2(r.stu), dvec2(r.stv)));
+    const double h = r.h;
+    const dvec3 first = formulas::firstOrderNormal(normal.n, f.pu, f.pv, dh);
+    const dvec3 full = glm::cross(formulas::displacedTangent(f.pu, normal.n, normal.nu, h, dh.x),
+                                  formulas::displacedTangent(f.pv, normal.n, normal.nv, h, dh.y));
+    return glm::degrees(std::atan2(glm::length(glm::cross(first, full)), glm::dot(first, full)));
+}
+
+/// Sums angle times area into meanNormalAngle.
+void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& r, double weight) {
+    const LimitFrame frame = frameOf(r);
+    const NormalFrame normal(frame);
+    const Curvatures k = curvaturesOf(frame, normal);
+    const double factor = 1 + std::min(r.h * k.lowest, r.h * k.highest), angle = normalAngle(frame, normal, r);
+    if (!frame.hasTangentPlane() || !std::isfinite(factor + angle + normal.area)) {
+        ++report.countWithoutCurvature;
+        return;
+    }
+    const SurfacePlace place{query.face, query.uv};
+    ++report.count;
+    report.area += weight * normal.area;
+    if (factor <= 0) report.foldedArea += weight * normal.area;
+    if (factor < report.lowestFactor || report.count == 1) report.lowestFactor = factor, report.lowestAt = place;
+    if (angle > report.maxNormalAngle) report.maxNormalAngle = angle, report.maxNormalAngleAt = place;
+    report.meanNormalAngle += angle * weight * normal.area;
+}
+
+} // namespace
+
+Curvatures principalCurvatures(const LimitFrame& frame) { return curvaturesOf(frame, NormalFrame(frame)); }
+
+CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results) {
+    CurvatureReport report;
+    for (std::size_t i = 0; i < samples.queries.size(); ++i)
+        if (samples.hasCurvature[i])
+            add(report, samples.queries[i], results[i], samples.weights[i]);
+        else
+            ++report.countWithoutCurvature;
+    report.meanNormalAngle = report.area > 0 ? report.meanNormalAngle / report.area : 0;
+    return report;
+}
+
+} // namespace relief
