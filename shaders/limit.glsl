@@ -180,10 +180,11 @@ LimitFrame gregory(bool isTexture, uint firstPoint, vec2 uv) {
             // Distances from the corner's two sides and their derivatives: +1 at the near end, -1 at the far one.
             float du = column == 1u ? 1.0 : -1.0, dv = row == 1u ? 1.0 : -1.0;
             float x = column == 1u ? uv.x : 1.0 - uv.x, y = row == 1u ? uv.y : 1.0 - uv.y;
-            float inverse = x + y > 0.0 ? 1.0 / (x + y) : 0.0;
+            bool isCorner = x + y <= 0.0;
+            float inverse = isCorner ? 0.0 : 1.0 / (x + y);
             // The pair's first point goes with x at corners 0 and 2 (row and column alike), with y at corners 1 and 3.
             bool isX = row == column;
-            float g = (isX ? x : y) * inverse;
+            float g = isCorner ? 0.5 : (isX ? x : y) * inverse;
             float gx = (isX ? y : -y) * inverse * inverse, gy = (isX ? -x : x) * inverse * inverse;
             float gxx = -2.0 * gx * inverse, gyy = -2.0 * gy * inverse;
             float gxy = (isX ? x - y : y - x) * inverse * inverse * inverse;
@@ -195,6 +196,11 @@ LimitFrame gregory(bool isTexture, uint firstPoint, vec2 uv) {
             cuu = gxx * difference;
             cuv = gxy * du * dv * difference;
             cvv = gyy * difference;
+            // In the corner itself the second derivatives depend on the direction of approach: along x = y the product rule
+            // leaves this of the quotients, while all else that they meet vanishes.
+            float left = isCorner ? (isX ? 2.25 : -2.25) : 0.0;
+            f.puu += left * difference;
+            f.pvv -= left * difference;
         }
         float wu = u.w[column], wv = v.w[row], du = u.d[column], dv = v.d[row];
         f.p += wu * wv * c;
@@ -250,7 +256,16 @@ LimitFrame weighted(Weights w, int count, bool isTexture, uint firstPoint) {
 // shared by two points with the quotients r = a/(a+b) and 1 - r; the product rule adds B r' (and B' r' twice, B r'').
 void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2 db) {
     float sum = a + b;
-    if (sum <= 0.0) return;
+    if (sum <= 0.0) {
+        // In the corner itself second derivatives depend on the direction of approach: those along a = b, of 12 a b a / (a + b).
+        for (int i = 0; i < 2; ++i) {
+            vec2 x = i == 0 ? da : db, y = i == 0 ? db : da;
+            w.duu[first + i] = 3.0 * x.x * x.x + 12.0 * x.x * y.x - 3.0 * y.x * y.x;
+            w.duv[first + i] = 3.0 * x.x * x.y + 6.0 * (x.x * y.y + x.y * y.x) - 3.0 * y.x * y.y;
+            w.dvv[first + i] = 3.0 * x.y * x.y + 12.0 * x.y * y.y - 3.0 * y.y * y.y;
+        }
+        return;
+    }
     vec2 dsum = da + db;
     vec2 dr = (da - dsum * (a / sum)) / sum;
     // r'' = -(r'_i sum_j + r'_j sum_i) / sum, for linear a and b.
