@@ -5,20 +5,27 @@
 // One rate an edge, from the edge alone: both faces read the same number.
 layout(local_size_x = 64) in;
 
+layout(set = 0, binding = kBindEdgeHeights) uniform samplerBuffer edgeHeightTexels;
+
 // Length in pixels of the displaced edge seen face-on from its distance: direction does not shorten it, so silhouettes
-// keep their detail.
+// keep their detail. Between the samples heights may go up and down unseen: once through all their range is counted.
 float pixelLength(uint edge) {
     const uint pieces = 4u;
-    float pixels = 0.0;
-    vec3 last = vec3(0);
+    float pixels = 0.0, straight = 0.0, nearest = 1e30;
+    vec3 last = vec3(0), lastLimit = vec3(0);
     for (uint k = 0u; k <= pieces; ++k) {
         Place place = edgePlace(edge, k, pieces, float(pieces));
-        vec3 q = displaced(place.owner.face, vec2(0), place).q;
+        DisplacedSample s = displaced(place.owner.face, vec2(0), place);
+        vec3 q = s.q;
         float distance = max(length(0.5 * (q + last) - scene.eye), scene.nearDistance);
         if (k > 0u) pixels += length(q - last) * scene.pixelsAtUnitDistance / distance;
+        if (k > 0u) straight += length(s.p - lastLimit);
+        nearest = min(nearest, max(length(q - scene.eye), scene.nearDistance));
         last = q;
+        lastLimit = s.p;
     }
-    return pixels;
+    float range = texelFetch(edgeHeightTexels, int(edge)).x;
+    return max(pixels, length(vec2(straight, 2.0 * range)) * scene.pixelsAtUnitDistance / nearest);
 }
 
 void main() {

@@ -2,7 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 #include "displaced.glsl"
 
-// Length of every edge in texels of the height map, at its owner: what mip levels are chosen by.
+// Every edge on the height map, at its owner: how long it is in texels, which mip levels are chosen by, and the box of texture
+// coordinates around it, for bounds of the heights there.
 layout(local_size_x = 64) in;
 
 void main() {
@@ -11,12 +12,15 @@ void main() {
     const uint pieces = 4u;
     Touch owner = fetchEdge(index).owner;
     float texels = 0.0;
-    vec2 last = vec2(0);
+    vec2 last = vec2(0), lower = vec2(1e30), upper = vec2(-1e30);
     for (uint k = 0u; k <= pieces; ++k) {
         vec2 uv = touchPoint(owner, float(k) / float(pieces));
-        vec2 at = displaced(owner.face, uv, insidePlace(owner.face, uv)).st * vec2(scene.mapSize);
+        vec2 st = displaced(owner.face, uv, insidePlace(owner.face, uv)).st, at = st * vec2(scene.mapSize);
+        lower = min(lower, st);
+        upper = max(upper, st);
         if (k > 0u) texels += length(at - last);
         last = at;
     }
-    scene.edgeRateTarget.at[index] = texels;
+    float words[kTexelWords] = {texels, lower.x, lower.y, upper.x, upper.y};
+    for (uint i = 0u; i < kTexelWords; ++i) scene.edgeRateTarget.at[kTexelWords * index + i] = words[i];
 }

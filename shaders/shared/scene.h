@@ -41,10 +41,14 @@ RELIEF_CONSTANT uint kBindDiceTable = 13u;   // runs of vertices and those aroun
 RELIEF_CONSTANT uint kBindDiceTiles = 14u;   // written per frame
 RELIEF_CONSTANT uint kBindDiceFirsts = 15u;  // first vertex of each run: written per frame
 RELIEF_CONSTANT uint kBindLevels = 16u;      // mip levels of the height map: one a corner, then four a face
-RELIEF_CONSTANT uint kBindDepths = 17u;      // the samples of a picture
-RELIEF_CONSTANT uint kBindNormals = 18u;
-RELIEF_CONSTANT uint kBindColors = 19u;
-RELIEF_CONSTANT uint kBindCount = 20u;
+RELIEF_CONSTANT uint kBindEdgeHeights = 17u; // how far heights range along each edge, cage units
+RELIEF_CONSTANT uint kBindDepths = 18u;      // the samples of a picture
+RELIEF_CONSTANT uint kBindNormals = 19u;
+RELIEF_CONSTANT uint kBindColors = 20u;
+RELIEF_CONSTANT uint kBindCount = 21u;
+
+// What texels.comp leaves for each edge: its length in texels, the lowest and the highest (s,t) on it.
+RELIEF_CONSTANT uint kTexelWords = 5u;
 
 // Texels of four words that a record takes in kBindRecords.
 RELIEF_CONSTANT uint kFaceTexels = 2u;

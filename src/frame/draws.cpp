@@ -17,14 +17,16 @@ void Renderer::Parts::makeTriangles(Frame& frame, FrameStats& stats) {
 
 void Renderer::Parts::makePlan(Frame& frame, FrameStats& stats) {
     const RenderOptions& o = frame.options;
+    const std::vector<char> isVisible = visibleFaces(frame.model, frame.scene.worldToClip);
     const DrawPlan& plan = frame.plan =
         o.path == Path::grid
-            ? planGrids(frame.model, frame.rates)
+            ? planGrids(frame.model, frame.rates, isVisible)
             : planPatches(frame.model, frame.rates,
-                          o.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw));
+                          o.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw), isVisible);
     stats.triangleCount = plan.triangleCount;
     stats.vertexCount = plan.vertexCount;
     stats.faceCount = plan.faces.size();
+    stats.hiddenFaceCount = plan.faces.size() - plan.visibleFaceCount;
     stats.drawCount = std::uint32_t(plan.batches.size());
     stats.maxRate = plan.maxRate;
     frame.drawFaces = uploadWords(device, "faces to draw", plan.faces);
@@ -71,6 +73,12 @@ const Buffer& Renderer::Parts::gridOf(const Model& model, const DrawBatch& batch
     return (model.isTriangles() ? triangleGrids : grids).at(batch.columns);
 }
 
+/// What casts a shadow may be out of sight.
+std::span<const DrawBatch> Renderer::Parts::batchesOf(const Frame& frame, Pass pass) {
+    const std::span<const DrawBatch> all = frame.plan.batches;
+    return pass == Pass::shadow ? all : all.first(frame.plan.visibleBatchCount);
+}
+
 void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pass) {
     const Pipeline& pipeline = pipelineOf(frame, pass);
     bind(commands, pipeline, frame.set);
@@ -87,18 +95,18 @@ void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pa
     }
     if (frame.options.path == Path::tessellation) {
         const std::uint32_t atOnce = device.traits().maxDrawIndirectCount;
-        const auto count = std::uint32_t(frame.plan.batches.size());
+        const auto count = std::uint32_t(batchesOf(frame, pass).size());
         for (std::uint32_t first = 0; first < count; first += atOnce)
             vkCmdDrawIndirect(commands, frame.draws.handle.get(), first * sizeof(VkDrawIndirectCommand),
                               std::min(atOnce, count - first), sizeof(VkDrawIndirectCommand));
         return;
     }
-    drawGrids(commands, frame, pipeline, constants);
+    drawGrids(commands, frame, pipeline, pass);
 }
 
-void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline,
-                                PushConstants constants) {
-    for (const DrawBatch& batch : frame.plan.batches) {
+void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, Pass pass) {
+    PushConstants constants{.drawsShadow = pass == Pass::shadow ? 1u : 0u};
+    for (const DrawBatch& batch : batchesOf(frame, pass)) {
         constants.passNumber = batch.columns;
         constants.passRows = batch.rows;
         pushConstants(commands, pipeline, constants);

@@ -177,7 +177,7 @@ void Renderer::Parts::describeView(Frame& frame) {
         frame.bindings[image].sampler = nearest.get();
     for (const std::uint32_t texels : {kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
         frame.bindings[texels].texels = noWords.view.get();
-    for (const std::uint32_t floats : {kBindEdgeRates, kBindLevels})
+    for (const std::uint32_t floats : {kBindEdgeRates, kBindLevels, kBindEdgeHeights})
         frame.bindings[floats].texels = frame.bindings[kBindPoints].texels;
 }
 

@@ -61,7 +61,8 @@ struct Renderer::Parts {
     void makeDiced(Frame& frame, FrameStats& stats);
     void makeGrids(const Model& model, const DrawPlan& plan);
     const Buffer& gridOf(const Model& model, const DrawBatch& batch) const;
-    void drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, PushConstants constants);
+    void drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, Pass pass);
+    static std::span<const DrawBatch> batchesOf(const Frame& frame, Pass pass);
     void drawDiced(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, PushConstants constants);
     void draw(VkCommandBuffer commands, const Frame& frame, Pass pass);
     void shadowPass(VkCommandBuffer commands, const Frame& frame);

@@ -139,8 +139,6 @@ const DiceTable& Model::diceTable(Device& device) const {
     return *diceTable_;
 }
 
-Model::~Model() = default;
-
 std::vector<char> boundaryVertices(Device& device, const Model& model, const DicedMesh& mesh) {
     const DiceTable& table = model.diceTable(device);
     std::vector<char> isOnBoundary(mesh.vertexCount, 0);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "model/bounds.h"
 #include "model/dice_table.h"
 #include "model/stages.h"
 
@@ -101,6 +102,8 @@ Model::Model(Device& device, const ModelDesc& desc) {
     byteCount_ = device.allocatedBytes() - before;
 }
 
+Model::~Model() = default;
+
 void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     const Surface& s = *desc.surface;
     std::vector<std::uint32_t> records;
@@ -119,8 +122,12 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     words.insert(words.end(), s.texPatchPoints.begin(), s.texPatchPoints.end());
     words_ = uploadTexels(device, {.name = "words"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(words)));
 
+    const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
+    heightPyramid_ =
+        std::make_unique<HeightPyramid>(desc.height != nullptr ? HeightPyramid(*desc.height) : HeightPyramid());
+    faceBounds_ = relief::faceBounds(s, refined, desc.height, *heightPyramid_);
     std::vector<vec4> points;
-    for (const vec3& p : refinePoints(s, desc.cagePositions)) points.emplace_back(p, 1.0f);
+    for (const vec3& p : refined) points.emplace_back(p, 1.0f);
     points_ = uploadTexels(device, {.name = "points"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(points)));
     texPoints_ = uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT,
                               std::as_bytes(std::span(s.texPoints)));

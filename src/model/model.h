@@ -27,6 +27,13 @@ struct ModelDesc {
 };
 
 struct DiceTable;
+class HeightPyramid;
+
+/// An edge on the height map, at its owner.
+struct EdgeOnMap {
+    float texels = 0;      ///< length
+    float heightRange = 0; ///< highest less lowest along it, from bounds: cage units
+};
 
 /// What the device holds of a cage (or a dense mesh): flat arrays and maps. The desc may go away afterwards.
 class Model {
@@ -47,8 +54,11 @@ public:
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] const std::vector<std::uint32_t>& tree() const { return tree_; } ///< as Surface::tree
-    /// Length of each edge in texels of the height map; measured when first asked for (empty then).
-    [[nodiscard]] std::vector<float>& edgeTexels() const { return edgeTexels_; }
+    /// Boxes around displaced faces; empty ones for holes.
+    [[nodiscard]] const std::vector<Bounds>& faceBounds() const { return faceBounds_; }
+    /// What edges are on the height map; measured when first asked for (empty then).
+    [[nodiscard]] std::vector<EdgeOnMap>& edgesOnMap() const { return edgesOnMap_; }
+    [[nodiscard]] const HeightPyramid& heightPyramid() const { return *heightPyramid_; }
     /// Which vertices a diced mesh has; made when first asked for.
     [[nodiscard]] const DiceTable& diceTable(Device& device) const;
     [[nodiscard]] std::size_t cornerCount() const { return cornerFlags_.size(); }
@@ -76,7 +86,9 @@ private:
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> tree_;
     mutable std::unique_ptr<DiceTable> diceTable_;
-    mutable std::vector<float> edgeTexels_;
+    mutable std::vector<EdgeOnMap> edgesOnMap_;
+    std::unique_ptr<HeightPyramid> heightPyramid_;
+    std::vector<Bounds> faceBounds_;
     std::vector<std::uint32_t> mapFirsts_; ///< where the texels of each level begin
     std::vector<bool> edgeIsHalf_;
     std::vector<std::uint32_t> cornerFlags_;
@@ -150,6 +162,9 @@ FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint3
 
 // --- draws --------------------------------------------------------------------------------------------------------
 
+/// One a face: whether its box may touch what `worldToClip` shows. Others are hidden with certainty.
+std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip);
+
 /// Faces drawn together, and the calls that draw them.
 struct DrawBatch {
     std::uint32_t columns = 0, rows = 0;        ///< grid: segments along u and v of every face in it
@@ -158,16 +173,20 @@ struct DrawBatch {
 
 struct DrawPlan {
     std::vector<std::uint32_t> faces;
-    std::vector<DrawBatch> batches;
+    std::vector<DrawBatch> batches; ///< those of visible faces first
+    std::size_t visibleBatchCount = 0;
+    std::uint64_t visibleFaceCount = 0;
     std::uint64_t triangleCount = 0;
     std::uint64_t vertexCount = 0; ///< distinct samples of the surface
     std::uint32_t maxRate = 0;
 };
 
-/// Splits faces into draws of at most `verticesPerDraw` tessellated vertices, in order of faces.
-DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw);
+/// Splits faces into draws of at most `verticesPerDraw` tessellated vertices, in order of faces; the draws of visible
+/// faces come first, and without `isVisible` all faces are.
+DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw,
+                     std::span<const char> isVisible = {});
 /// Groups faces by their segments along u and v.
-DrawPlan planGrids(const Model& model, const EdgeRates& rates);
+DrawPlan planGrids(const Model& model, const EdgeRates& rates, std::span<const char> isVisible = {});
 /// Triangles that the fixed-function tessellator, or the dicer, makes of one patch with these side rates (3 or 4 of
 /// them).
 std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> sideRates);

@@ -29,6 +29,28 @@ std::uint64_t sumOf(std::span<const std::uint32_t> numbers) {
     return sum;
 }
 
+/// Drawn faces that are visible, or those that are not.
+std::vector<std::uint32_t> facesOf(const Model& model, std::span<const char> isVisible, bool isHidden) {
+    std::vector<std::uint32_t> faces;
+    for (std::uint32_t f = 0; f < model.faces().size(); ++f)
+        if (model.faces()[f].root != kNoPatch && isHidden == (!isVisible.empty() && isVisible[f] == 0))
+            faces.push_back(f);
+    return faces;
+}
+
+/// True when all corners of the box are beyond one plane of the view: left, right, below, above, behind, too far.
+bool isOutside(const Bounds& box, const mat4& worldToClip) {
+    int beyond[6] = {};
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 p((corner & 1) != 0 ? box.upper.x : box.lower.x, (corner & 2) != 0 ? box.upper.y : box.lower.y,
+                      (corner & 4) != 0 ? box.upper.z : box.lower.z);
+        const glm::dvec4 c = glm::dmat4(worldToClip) * glm::dvec4(p, 1);
+        const bool isBeyond[6] = {c.x<-c.w, c.x> c.w, c.y<-c.w, c.y> c.w, c.z > c.w, c.z < 0};
+        for (int plane = 0; plane < 6; ++plane) beyond[plane] += isBeyond[plane] ? 1 : 0;
+    }
+    return std::ranges::find(beyond, 8) != std::end(beyond);
+}
+
 } // namespace
 
 std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
@@ -50,49 +72,62 @@ std::uint64_t dicedTriangles(std::span<const std::uint32_t> r) {
     return sumOf(r) + 3 * inner + inner * inner;
 }
 
-DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw) {
+std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip) {
+    std::vector<char> isVisible;
+    isVisible.reserve(model.faceBounds().size());
+    for (const Bounds& box : model.faceBounds()) isVisible.push_back(!box.isEmpty() && !isOutside(box, worldToClip));
+    return isVisible;
+}
+
+DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw,
+                     std::span<const char> isVisible) {
     DrawPlan plan;
     plan.vertexCount = sharedVertices(model, rates);
-    std::uint64_t vertices = 0;
-    for (std::uint32_t f = 0; f < model.faces().size(); ++f) {
-        if (model.faces()[f].root == kNoPatch) continue;
-        const FaceSegments face = faceSegments(model, rates, f);
-        const std::uint64_t largest = std::max(face.u, face.v), more = (largest + 1) * (largest + 1);
-        if (plan.batches.empty() || vertices + more > verticesPerDraw) {
-            plan.batches.push_back({.firstFace = std::uint32_t(plan.faces.size())});
-            vertices = 0;
+    for (const std::uint32_t hidden : {0u, 1u}) { // visible faces first
+        std::uint64_t vertices = 0;
+        const std::size_t firstBatch = plan.batches.size();
+        for (const std::uint32_t f : facesOf(model, isVisible, hidden != 0)) {
+            const FaceSegments face = faceSegments(model, rates, f);
+            const std::uint64_t largest = std::max(face.u, face.v), more = (largest + 1) * (largest + 1);
+            if (plan.batches.size() == firstBatch || vertices + more > verticesPerDraw) {
+                plan.batches.push_back({.firstFace = std::uint32_t(plan.faces.size())});
+                vertices = 0;
+            }
+            vertices += more;
+            ++plan.batches.back().faceCount;
+            plan.faces.push_back(f);
+            plan.triangleCount += tessellatedTriangles({face.sides, std::size_t(model.sideCount())});
+            if (model.isTriangles())
+                plan.vertexCount += insideTriangle(largest);
+            else if (largest > 1)
+                plan.vertexCount += std::uint64_t(std::max(face.u, 2u) - 1) * (std::max(face.v, 2u) - 1);
+            plan.maxRate = std::max(plan.maxRate, std::uint32_t(std::ceil(face.largestRate)));
         }
-        vertices += more;
-        ++plan.batches.back().faceCount;
-        plan.faces.push_back(f);
-        plan.triangleCount += tessellatedTriangles({face.sides, std::size_t(model.sideCount())});
-        if (model.isTriangles())
-            plan.vertexCount += insideTriangle(largest);
-        else if (largest > 1)
-            plan.vertexCount += std::uint64_t(std::max(face.u, 2u) - 1) * (std::max(face.v, 2u) - 1);
-        plan.maxRate = std::max(plan.maxRate, std::uint32_t(std::ceil(face.largestRate)));
+        if (hidden == 0) plan.visibleBatchCount = plan.batches.size(), plan.visibleFaceCount = plan.faces.size();
     }
     return plan;
 }
 
-DrawPlan planGrids(const Model& model, const EdgeRates& rates) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> groups;
-    for (std::uint32_t f = 0; f < model.faces().size(); ++f) {
-        if (model.faces()[f].root == kNoPatch) continue;
-        const FaceSegments face = faceSegments(model, rates, f);
-        groups[{face.u, face.v}].push_back(f);
-    }
+DrawPlan planGrids(const Model& model, const EdgeRates& rates, std::span<const char> isVisible) {
     DrawPlan plan;
     plan.vertexCount = sharedVertices(model, rates);
-    for (const auto& [size, faces] : groups) {
-        const auto& [u, v] = size;
-        plan.batches.push_back({u, v, std::uint32_t(plan.faces.size()), std::uint32_t(faces.size())});
-        plan.faces.insert(plan.faces.end(), faces.begin(), faces.end());
-        plan.triangleCount += faces.size() * std::uint64_t(u) * v * (model.isTriangles() ? 1 : 2);
-        const std::uint64_t inside =
-            model.isTriangles() ? std::uint64_t(u - 1) * (std::max(u, 2u) - 2) / 2 : std::uint64_t(u - 1) * (v - 1);
-        plan.vertexCount += faces.size() * inside;
-        plan.maxRate = std::max({plan.maxRate, u, v});
+    for (const std::uint32_t hidden : {0u, 1u}) {
+        std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> groups;
+        for (const std::uint32_t f : facesOf(model, isVisible, hidden != 0)) {
+            const FaceSegments face = faceSegments(model, rates, f);
+            groups[{face.u, face.v}].push_back(f);
+        }
+        for (const auto& [size, faces] : groups) {
+            const auto& [u, v] = size;
+            plan.batches.push_back({u, v, std::uint32_t(plan.faces.size()), std::uint32_t(faces.size())});
+            plan.faces.insert(plan.faces.end(), faces.begin(), faces.end());
+            plan.triangleCount += faces.size() * std::uint64_t(u) * v * (model.isTriangles() ? 1 : 2);
+            const std::uint64_t inside =
+                model.isTriangles() ? std::uint64_t(u - 1) * (std::max(u, 2u) - 2) / 2 : std::uint64_t(u - 1) * (v - 1);
+            plan.vertexCount += faces.size() * inside;
+            plan.maxRate = std::max({plan.maxRate, u, v});
+        }
+        if (hidden == 0) plan.visibleBatchCount = plan.batches.size(), plan.visibleFaceCount = plan.faces.size();
     }
     return plan;
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/bounds.h"
 #include "model/stages.h"
 #include "shared/rates.h"
 
@@ -37,24 +38,36 @@ struct EdgeRater::Parts {
     ComputeStages stages;
     Timer timer;
 
-    std::vector<float> measure(const char* file, const Model& model, Scene scene, double* milliseconds);
+    struct Measure {
+        const char* file;
+        std::size_t words = 1;
+        const TexelBuffer* edgeHeights = nullptr;
+        double* milliseconds = nullptr; ///< device time, if measured
+    };
+    std::vector<float> measure(const Measure& what, const Model& model, Scene scene);
+    const std::vector<EdgeOnMap>& edgesOnMap(const Model& model);
+    std::vector<float> measureRates(const Model& model, const TriangleOptions& options, const View& view,
+                                    double* milliseconds);
     std::vector<float> cornerLevels(const Model& model, const EdgeRates& rates);
 };
 
 EdgeRater::EdgeRater(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 EdgeRater::~EdgeRater() = default;
 
-/// One number an edge, as a shader leaves it in edgeRateTarget.
-std::vector<float> EdgeRater::Parts::measure(const char* file, const Model& model, Scene scene, double* milliseconds) {
-    std::vector<float> numbers(model.edges().size());
+/// So many numbers an edge, as a shader leaves them in edgeRateTarget.
+std::vector<float> EdgeRater::Parts::measure(const Measure& what, const Model& model, Scene scene) {
+    std::vector<float> numbers(model.edges().size() * what.words);
     const Buffer out =
-        makeBuffer(device, {.name = file,
+        makeBuffer(device, {.name = what.file,
                             .bytes = numbers.size() * sizeof(float),
                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
     Binding bindings[kBindDepths];
     inputs.fill(model, scene, bindings);
     scene.edgeRateTarget = out.address;
-    const Pipeline& pipeline = stages.pipeline(file, model, constantsOf(model, NormalKind::limit));
+    if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights].texels = what.edgeHeights->view.get();
+    ShaderConstants constants = constantsOf(model, NormalKind::limit);
+    constants.wantsTexCoords = what.words > 1;
+    const Pipeline& pipeline = stages.pipeline(what.file, model, constants);
     const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
     device.run([&](VkCommandBuffer commands) {
         timer.reset(commands);
@@ -62,24 +75,53 @@ std::vector<float> EdgeRater::Parts::measure(const char* file, const Model& mode
         timer.stamp(commands);
         bind(commands, pipeline, set);
         pushConstants(commands, pipeline, {});
-        vkCmdDispatch(commands, std::uint32_t((numbers.size() + 63) / 64), 1, 1);
+        vkCmdDispatch(commands, std::uint32_t((model.edges().size() + 63) / 64), 1, 1);
         timer.stamp(commands);
     });
     const std::vector<double> times = timer.intervals();
-    if (milliseconds != nullptr && !times.empty()) *milliseconds = times[0];
+    if (what.milliseconds != nullptr && !times.empty()) *what.milliseconds = times[0];
     downloadBytes(device, out, std::as_writable_bytes(std::span(numbers)));
     return numbers;
+}
+
+/// Measured once for a model.
+const std::vector<EdgeOnMap>& EdgeRater::Parts::edgesOnMap(const Model& model) {
+    std::vector<EdgeOnMap>& edges = model.edgesOnMap();
+    if (!edges.empty() || !model.hasHeight()) return edges;
+    const std::vector<float> words = measure({.file = "texels.comp", .words = kTexelWords}, model, {});
+    for (std::size_t i = 0; i < words.size(); i += kTexelWords) {
+        const Range range =
+            model.heightPyramid().range(vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4]));
+        edges.push_back({words[i], range.highest - range.lowest});
+    }
+    return edges;
+}
+
+std::vector<float> EdgeRater::Parts::measureRates(const Model& model, const TriangleOptions& options, const View& view,
+                                                  double* milliseconds) {
+    Scene scene{};
+    scene.eye = view.eye;
+    scene.nearDistance = view.nearDistance;
+    scene.pixelsAtUnitDistance = view.pixelsAtUnitDistance;
+    scene.edgePixels = float(options.edgePixels);
+    scene.maxRate = rateLimit(device.traits(), options);
+    scene.isFractional = options.spacing == Spacing::fractional ? 1 : 0;
+    std::vector<float> ranges(model.edges().size(), 0);
+    const std::vector<EdgeOnMap>& edges = edgesOnMap(model);
+    for (std::size_t i = 0; i < edges.size(); ++i) ranges[i] = edges[i].heightRange;
+    const TexelBuffer heights =
+        uploadTexels(device, {.name = "edge heights"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(ranges)));
+    return measure({.file = "rates.comp", .edgeHeights = &heights, .milliseconds = milliseconds}, model, scene);
 }
 
 /// At each corner the mean over its edges of the level whose texels are as long as their segments.
 std::vector<float> EdgeRater::Parts::cornerLevels(const Model& model, const EdgeRates& rates) {
     if (!model.hasHeight()) return {};
-    std::vector<float>& texels = model.edgeTexels();
-    if (texels.empty()) texels = measure("texels.comp", model, {}, nullptr);
+    const std::vector<EdgeOnMap>& edges = edgesOnMap(model);
     std::vector<float> levels(model.cornerCount(), 0), counts(model.cornerCount(), 0);
     bool isAny = false;
-    for (std::size_t edge = 0; edge < texels.size(); ++edge) {
-        const float perSegment = texels[edge] / rates.rates[edge];
+    for (std::size_t edge = 0; edge < edges.size(); ++edge) {
+        const float perSegment = edges[edge].texels / rates.rates[edge];
         const float level = perSegment > 1 ? std::log2(perSegment) : 0; // NaN compares false
         isAny = isAny || level > 0;
         for (const std::uint32_t corner : model.edges()[edge].corners) levels[corner] += level, ++counts[corner];
@@ -95,18 +137,8 @@ EdgeRates EdgeRater::rates(const Model& model, const TriangleOptions& options, c
         fail(Failure::usage, "--rate {} is not in 1..{}{}", *options.rate, limit,
              limit == kRateLimit ? "" : ", what the tessellator of this device does; --path grid and dice go to 1024");
     EdgeRates rates{{}, options.spacing, {}};
-    if (options.rate) {
-        rates.rates = model.uniformRates(float(*options.rate));
-    } else {
-        Scene scene{};
-        scene.eye = view.eye;
-        scene.nearDistance = view.nearDistance;
-        scene.pixelsAtUnitDistance = view.pixelsAtUnitDistance;
-        scene.edgePixels = float(options.edgePixels);
-        scene.maxRate = limit;
-        scene.isFractional = options.spacing == Spacing::fractional ? 1 : 0;
-        rates.rates = parts_->measure("rates.comp", model, scene, milliseconds);
-    }
+    rates.rates = options.rate ? model.uniformRates(float(*options.rate))
+                               : parts_->measureRates(model, options, view, milliseconds);
     if (options.filtersHeights) rates.cornerLevels = parts_->cornerLevels(model, rates);
     return rates;
 }

@@ -44,7 +44,8 @@ void GeometryInputs::fill(const Model& model, Scene& scene, std::span<Binding> b
         bindings[image].sampler = sampler_.get();
     for (const std::uint32_t texels : {kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
         bindings[texels].texels = none_.view.get();
-    bindings[kBindEdgeRates].texels = bindings[kBindLevels].texels = bindings[kBindPoints].texels; // floats
+    for (const std::uint32_t floats : {kBindEdgeRates, kBindLevels, kBindEdgeHeights})
+        bindings[floats].texels = bindings[kBindPoints].texels;
 }
 
 const Pipeline& ComputeStages::pipeline(const char* file, const Model& model, const ShaderConstants& constants) {

@@ -1,0 +1,44 @@
+// Internal: conservative bounds of displaced faces, from control points and from the smallest and largest heights of
+// blocks of the map.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "displacement/displacement.h"
+#include "surface/surface.h"
+
+namespace relief {
+
+struct Range {
+    float lowest = 0, highest = 0;
+};
+
+/// Smallest and largest heights of squares of texels, and of squares of those.
+class HeightPyramid {
+public:
+    HeightPyramid() = default;
+    explicit HeightPyramid(const HeightMap& map);
+
+    /// Bounds of h in cage units over a box of texture coordinates, with all texels that its lookups read.
+    [[nodiscard]] Range range(const vec2& lower, const vec2& upper) const;
+
+private:
+    struct Level {
+        int width = 0, height = 0;
+        std::vector<Range> blocks; ///< stored values
+    };
+    [[nodiscard]] Range blocksIn(std::size_t level, const ivec2& first, const ivec2& last) const;
+    [[nodiscard]] Range heights(const Range& stored) const;
+
+    ivec2 size_{0};
+    Wrap wrap_ = Wrap::repeat;
+    double mid_ = 0, scale_ = 1;
+    std::vector<Level> levels_; ///< the last one is a single block
+};
+
+/// A box around each displaced face (empty for holes): the patches lie in the hull of their control points.
+std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points, const HeightMap* map,
+                               const HeightPyramid& pyramid);
+
+} // namespace relief
