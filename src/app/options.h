@@ -26,15 +26,25 @@ struct SurfaceArgs {
     std::string wrap = "repeat";
 };
 
-struct PictureArgs {
-    std::string path; ///< "": tessellation where the device has it
+struct TriangleArgs {
+    std::string path; ///< "": what suits the verb
     std::optional<int> rate;
     double edgePixels = 2;
-    std::string normal = "full", show = "shaded";
+    std::string spacing = "equal", normal = "full";
+    std::optional<std::uint64_t> memory;
+};
+
+struct CameraArgs {
     std::vector<int> size{1024, 1024};
-    CameraOptions camera;
+    CameraOptions options;
     std::vector<double> lookAt;
-    double distance = 0;
+    double distance = 0; ///< 0: frames the object
+};
+
+struct PictureArgs {
+    TriangleArgs triangles;
+    CameraArgs camera;
+    std::string show = "shaded";
     std::string albedo, environment;
     std::vector<double> light, color;
     double roughness = 0.4;
@@ -46,9 +56,20 @@ struct PictureArgs {
 
 void addOutput(CLI::App& app, Output& output);
 void addSurface(CLI::App& app, SurfaceArgs& args);
+void addPath(CLI::App& app, std::string& word, const std::string& defaultWords);
+void addTriangles(CLI::App& app, TriangleArgs& args); ///< all but the path, which not every verb can choose
 void addNormal(CLI::App& app, std::string& word);
+void addCamera(CLI::App& app, CameraArgs& args);
 void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
+
+NormalKind normalKind(const std::string& word);
+/// "": tessellation where the device has it, else grid.
+Path pathOf(const std::string& word, const Device& device);
+TriangleOptions triangleOptions(const TriangleArgs& args, const Device& device);
+Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points);
+
+double secondsNow();
 
 /// A cage with everything made of it, in memory.
 struct Loaded {
@@ -62,10 +83,10 @@ struct Loaded {
     [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
 };
 Loaded load(const SurfaceArgs& args, const Output& output);
+/// Points for framing: a coarse reference is enough.
+std::vector<dvec3> outlineOf(const Loaded& loaded);
 
 /// Throws when the validation layer (RELIEF_VALIDATE=1) complained.
 void checkValidation(const Device& device);
-
-NormalKind normalKind(const std::string& word);
 
 } // namespace relief::app
