@@ -150,6 +150,13 @@ TEST(Usage, ratesThatThePathCannotDoAreRefusedWithTheRange) {
     expectDone(relief(words, "--path grid --rate 65"));
 }
 
+TEST(Usage, memoryThatADicedMeshPassesIsRefused) {
+    const TemporaryFolder folder;
+    expectRefused(relief({"render", cagePath("cube"), "-o", folder / "a.png"}, "--path dice --rate 200 --memory 1M"),
+                  Failure::device, {"1.0 MB are allowed", "--memory"});
+    EXPECT_EQ(folder.fileCount(), 0u);
+}
+
 TEST(Usage, picturesOfUnknownKindsAreRefusedBeforeTheyAreDrawn) {
     const TemporaryFolder folder;
     for (const char* name : {"a.jpg", "a", "a.png.gz", ".png/"})
