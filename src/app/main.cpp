@@ -39,7 +39,7 @@ std::string repeatedOption(const CLI::App& command, int argc, char** argv) {
     std::set<const CLI::Option*> seen;
     for (int i = 1; i < argc; ++i) {
         const std::string_view word = argv[i];
-        const std::string name(word.substr(0, word.starts_with("--") ? word.find('=') : 2));
+        std::string name(word.substr(0, word.starts_with("--") ? word.find('=') : 2));
         const CLI::Option* option = name.starts_with('-') ? command.get_option_no_throw(name) : nullptr;
         if (option == nullptr || option->get_multi_option_policy() != CLI::MultiOptionPolicy::Throw) continue;
         if (!seen.insert(option).second) return name;
