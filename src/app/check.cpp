@@ -12,7 +12,7 @@ struct CheckArgs {
     TriangleArgs triangles;
     Output output;
     std::size_t pointCount = 200'000;
-    std::string normal = "full", heatmap, device;
+    std::string heatmap, device;
 };
 
 constexpr std::size_t kPointsAtOnce = 1u << 18; // keeps the device's buffers below 40 MB
@@ -42,11 +42,8 @@ public:
 
     /// `shift`: how far the crack pictures move every other vertex, cage units.
     PathReport check(const std::string& path, double shift) {
-        RenderOptions options;
+        RenderOptions options{triangleOptions(args_.triangles, device_)};
         options.path = pathOf(path, device_);
-        options.rate = args_.triangles.rate;
-        options.edgePixels = args_.triangles.edgePixels;
-        options.normal = normalKind(args_.normal);
         options.lighting.castsShadows = false;
         for (const dvec3& p : points_) options.bounds.add(p);
         PathReport report{.path = path, .triangles = checkTriangles(options)};
@@ -99,7 +96,7 @@ std::vector<SampleResult> sampleDevice(Device& device, const Model& model, std::
 void checkPoints(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args,
                  Certificate& certificate) {
     const SurfaceSamples samples = sampleEverywhere(loaded.surface, args.pointCount);
-    const NormalKind normal = normalKind(args.normal);
+    const NormalKind normal = normalKind(args.triangles.normal);
     const std::vector<SampleResult> results = sampleDevice(device, model, samples.queries, normal);
     const ReferenceSurface reference(loaded.cage, loaded.options);
     certificate.frames =
@@ -157,8 +154,8 @@ int check(const CheckArgs& args) {
 Run addCheck(CLI::App& app) {
     auto args = std::make_shared<CheckArgs>();
     addSurface(app, args->surface);
-    addTriangles(app, args->triangles, "all that the device has");
-    addNormal(app, args->normal);
+    addPath(app, args->triangles.path, "all that the device has");
+    addTriangles(app, args->triangles);
     app.add_option("--points", args->pointCount, "points that are compared with the reference, about (200000)")
         ->check(CLI::Range(1, 100'000'000))
         ->option_text("N");

@@ -7,10 +7,12 @@
 
 namespace relief::app {
 
-/// Runs the parsed command; returns the exit code.
+/// Runs the parsed command; returns the exit code. What cannot work is said as early as it can be known: first words
+/// that make no sense, then an output that cannot be written, then inputs that cannot be read.
 using Run = std::function<int()>;
 
 Run addRender(CLI::App& app);
+Run addExport(CLI::App& app);
 Run addSample(CLI::App& app);
 Run addCheck(CLI::App& app);
 Run addInfo(CLI::App& app);

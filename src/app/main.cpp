@@ -3,6 +3,7 @@
 #include <cctype>
 #include <iostream>
 #include <new>
+#include <set>
 
 #include <malloc.h>
 
@@ -20,6 +21,7 @@ struct Command {
 
 constexpr Command kCommands[] = {
     {"render", "one picture of a displaced cage, or of a dense mesh", app::addRender},
+    {"export", "the displaced triangles as a mesh", app::addExport},
     {"sample", "the device's own frames at given points of the surface", app::addSample},
     {"check", "certificate: watertight, exact, one-to-one", app::addCheck},
     {"info", "what a file holds; what the devices can do", app::addInfo},
@@ -33,9 +35,25 @@ int fault(Failure failure, std::string line) {
     return int(failure);
 }
 
-/// What helps more than CLI11's own words: the nearest option or verb to an unknown one, or the verbs that there are.
+/// The first option of one value that is given again, as the user calls it, or "". CLI11 counts the values instead.
+std::string repeatedOption(const CLI::App& command, int argc, char** argv) {
+    std::set<const CLI::Option*> seen;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        std::string name(word.substr(0, word.starts_with("--") ? word.find('=') : 2));
+        const CLI::Option* option = name.starts_with('-') ? command.get_option_no_throw(name) : nullptr;
+        if (option == nullptr || option->get_multi_option_policy() != CLI::MultiOptionPolicy::Throw) continue;
+        if (!seen.insert(option).second) return name;
+    }
+    return "";
+}
+
+/// What helps more than CLI11's own words: an option given twice, the nearest option or verb to an unknown one, or the
+/// verbs that there are.
 std::string hintFor(const CLI::App& top, int argc, char** argv) {
     const CLI::App* command = top.get_subcommands().empty() ? &top : top.get_subcommands().front();
+    const std::string repeated = repeatedOption(*command, argc, argv);
+    if (!repeated.empty()) return fmt::format("{} is given twice; give it once", repeated);
     std::vector<std::string> known;
     for (const CLI::Option* option : command->get_options())
         for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

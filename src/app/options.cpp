@@ -1,13 +1,10 @@
 #include "app/options.h"
 
+#include <charconv>
 #include <chrono>
 
 namespace relief::app {
 namespace {
-
-double secondsNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 Scheme schemeOf(const std::string& word) {
     return word == "loop" ? Scheme::loop : word == "bilinear" ? Scheme::bilinear : Scheme::catmark;
@@ -20,6 +17,27 @@ CLI::Validator numberIn(double lowest, double highest) {
         const bool isNumber = CLI::detail::lexical_cast(word, value);
         if (isNumber && value >= lowest && value <= highest) return std::string();
         return fmt::format("{} is not a number in {}..{}", word, lowest, highest);
+    };
+    return {check, ""};
+}
+
+/// Bytes of "512M", "1.5G" or "4000000", decimal as humanBytes prints them; nothing where the word is no such size.
+std::optional<std::uint64_t> bytesOf(const std::string& word) {
+    double number = 0;
+    const char* end = word.data() + word.size();
+    const auto [unit, error] = std::from_chars(word.data(), end, number);
+    if (error != std::errc()) return {};
+    const std::map<std::string, double> units{{"", 1}, {"K", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}};
+    const auto found = units.find(std::string(unit, end));
+    if (found == units.end()) return {};
+    const double bytes = number * found->second;
+    if (!(bytes >= 1e6 && bytes <= 1e12)) return {};
+    return std::uint64_t(bytes);
+}
+
+CLI::Validator sizeInBytes() {
+    const auto check = [](const std::string& word) {
+        return bytesOf(word) ? std::string() : fmt::format("{} is not a size in 1M..1T, such as 512M or 2G", word);
     };
     return {check, ""};
 }
@@ -40,27 +58,6 @@ CLI::Option* addWord(CLI::App& app, const char* name, std::string& word, const s
 template <typename T>
 CLI::Option* addNumbers(CLI::App& app, const char* name, std::vector<T>& numbers, const char* help, int count) {
     return app.add_option(name, numbers, help)->delimiter(',')->expected(count);
-}
-
-void addCamera(CLI::App& app, PictureArgs& args) {
-    const char* group = "camera";
-    listed(addNumbers(app, "--size", args.size, "pixels: width,height (1024,1024)", 2)->check(CLI::Range(1, 16384)),
-           "W,H", group);
-    listed(
-        app.add_option("--azimuth", args.camera.azimuth, "degrees around Y; 0 looks along -Z (30)")->check(anyNumber()),
-        "A", group);
-    listed(app.add_option("--elevation", args.camera.elevation, "degrees above the horizon, -90..90 (20)")
-               ->check(numberIn(-90, 90)),
-           "E", group);
-    listed(app.add_option("--distance", args.distance, "cage units from the point looked at (frames the object)")
-               ->check(numberIn(1e-9, 1e9)),
-           "D", group);
-    listed(
-        addNumbers(app, "--look-at", args.lookAt, "point in cage units (the object's centre)", 3)->check(anyNumber()),
-        "X,Y,Z", group);
-    listed(app.add_option("--fov", args.camera.fieldOfView, "vertical field of view in degrees, 1..150 (30)")
-               ->check(numberIn(1, 150)),
-           "F", group);
 }
 
 void addShading(CLI::App& app, PictureArgs& args) {
@@ -134,17 +131,32 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
            "WRAP", group);
 }
 
-void addTriangles(CLI::App& app, TriangleArgs& args, const std::string& defaultPath) {
-    listed(addWord(app, "--path", args.path,
-                   fmt::format("how triangles are made: tessellation, grid or dice ({})", defaultPath),
+void addPath(CLI::App& app, std::string& word, const std::string& defaultWords) {
+    listed(addWord(app, "--path", word,
+                   fmt::format("how triangles are made: tessellation, grid or dice ({})", defaultWords),
                    {"tessellation", "grid", "dice"}),
            "PATH", "triangles");
+}
+
+void addTriangles(CLI::App& app, TriangleArgs& args) {
+    const char* group = "triangles";
     CLI::Option* rate = app.add_option("--rate", args.rate, "segments a cage edge, the same everywhere");
-    listed(rate, "N", "triangles");
+    listed(rate, "N", group);
     listed(app.add_option("--edge-pixels", args.edgePixels, "segments of this length on screen (2)")
                ->check(numberIn(1e-3, 1e6))
                ->excludes(rate),
-           "P", "triangles");
+           "P", group);
+    listed(addWord(app, "--spacing", args.spacing,
+                   "equal segments, or fractional: no sample jumps while rates change (equal)",
+                   {"equal", "fractional"}),
+           "SPACING", group);
+    const auto setMemory = [&args](const std::string& word) { args.memory = bytesOf(word); };
+    listed(
+        app.add_option_function<std::string>(
+               "--memory", setMemory, "most bytes that a diced mesh may take: 512M, 2G (half of the device's memory)")
+            ->check(sizeInBytes()),
+        "SIZE", group);
+    addNormal(app, args.normal);
 }
 
 void addNormal(CLI::App& app, std::string& word) {
@@ -153,16 +165,66 @@ void addNormal(CLI::App& app, std::string& word) {
            "KIND", "normal");
 }
 
+void addCamera(CLI::App& app, CameraArgs& args) {
+    const char* group = "camera";
+    listed(addNumbers(app, "--size", args.size, "pixels: width,height (1024,1024)", 2)->check(CLI::Range(1, 16384)),
+           "W,H", group);
+    listed(app.add_option("--azimuth", args.options.azimuth, "degrees around Y; 0 looks along -Z (30)")
+               ->check(anyNumber()),
+           "A", group);
+    listed(app.add_option("--elevation", args.options.elevation, "degrees above the horizon, -90..90 (20)")
+               ->check(numberIn(-90, 90)),
+           "E", group);
+    listed(app.add_option("--distance", args.distance, "cage units from the point looked at (frames the object)")
+               ->check(numberIn(1e-9, 1e9)),
+           "D", group);
+    listed(
+        addNumbers(app, "--look-at", args.lookAt, "point in cage units (the object's centre)", 3)->check(anyNumber()),
+        "X,Y,Z", group);
+    listed(app.add_option("--fov", args.options.fieldOfView, "vertical field of view in degrees, 1..150 (30)")
+               ->check(numberIn(1, 150)),
+           "F", group);
+}
+
 void addDevice(CLI::App& app, std::string& name) {
     listed(app.add_option("--device", name, "part of the name of the Vulkan device to use"), "NAME", "device");
 }
 
 void addPicture(CLI::App& app, PictureArgs& args) {
-    addTriangles(app, args, "tessellation where there is one");
-    addNormal(app, args.normal);
-    addCamera(app, args);
+    addPath(app, args.triangles.path, "tessellation where there is one");
+    addTriangles(app, args.triangles);
+    addCamera(app, args.camera);
     addShading(app, args);
     addDevice(app, args.device);
+}
+
+NormalKind normalKind(const std::string& word) {
+    return word == "limit" ? NormalKind::limit : word == "first-order" ? NormalKind::firstOrder : NormalKind::full;
+}
+
+Path pathOf(const std::string& word, const Device& device) {
+    if (word.empty()) return device.traits().hasTessellation ? Path::tessellation : Path::grid;
+    return word == "grid" ? Path::grid : word == "dice" ? Path::dice : Path::tessellation;
+}
+
+TriangleOptions triangleOptions(const TriangleArgs& args, const Device& device) {
+    return {.path = pathOf(args.path, device),
+            .rate = args.rate,
+            .edgePixels = args.edgePixels,
+            .spacing = args.spacing == "fractional" ? Spacing::fractional : Spacing::equal,
+            .normal = normalKind(args.normal),
+            .memory = args.memory};
+}
+
+Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points) {
+    CameraOptions options = args.options;
+    if (args.distance > 0) options.distance = args.distance;
+    if (!args.lookAt.empty()) options.lookAt = dvec3(args.lookAt[0], args.lookAt[1], args.lookAt[2]);
+    return frameCamera(points, options, double(args.size[0]) / args.size[1]);
+}
+
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 namespace {
@@ -181,15 +243,6 @@ Surface surfaceOf(const Loaded& loaded, const std::string& path) {
 void checkValidation(const Device& device) {
     const std::size_t count = device.validationMessages().size();
     if (count > 0) fail(Failure::internal, "the Vulkan validation layer has {} complaints", count);
-}
-
-NormalKind normalKind(const std::string& word) {
-    return word == "limit" ? NormalKind::limit : word == "first-order" ? NormalKind::firstOrder : NormalKind::full;
-}
-
-Path pathOf(const std::string& word, const Device& device) {
-    if (word.empty()) return device.traits().hasTessellation ? Path::tessellation : Path::grid;
-    return word == "grid" ? Path::grid : word == "dice" ? Path::dice : Path::tessellation;
 }
 
 Loaded load(const SurfaceArgs& args, const Output& output) {
@@ -222,6 +275,12 @@ Loaded load(const SurfaceArgs& args, const Output& output) {
     loaded.loadSeconds = loadEnd - start;
     loaded.surfaceSeconds = secondsNow() - loadEnd;
     return loaded;
+}
+
+std::vector<dvec3> outlineOf(const Loaded& loaded) {
+    if (loaded.dense) return {loaded.dense->positions.begin(), loaded.dense->positions.end()};
+    const ReferenceSurface coarse(loaded.cage, {.scheme = loaded.options.scheme, .isolation = 2});
+    return outline(coarse, loaded.heightMap());
 }
 
 } // namespace relief::app

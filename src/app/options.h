@@ -30,14 +30,21 @@ struct TriangleArgs {
     std::string path; ///< "": what suits the verb
     std::optional<int> rate;
     double edgePixels = 2;
+    std::string spacing = "equal", normal = "full";
+    std::optional<std::uint64_t> memory;
 };
 
-struct PictureArgs : TriangleArgs {
-    std::string normal = "full", show = "shaded";
+struct CameraArgs {
     std::vector<int> size{1024, 1024};
-    CameraOptions camera;
+    CameraOptions options;
     std::vector<double> lookAt;
-    double distance = 0;
+    double distance = 0; ///< 0: frames the object
+};
+
+struct PictureArgs {
+    TriangleArgs triangles;
+    CameraArgs camera;
+    std::string show = "shaded";
     std::string albedo, environment;
     std::vector<double> light, color;
     double roughness = 0.4;
@@ -50,10 +57,20 @@ struct PictureArgs : TriangleArgs {
 void addOutput(CLI::App& app, Output& output);
 void addSurface(CLI::App& app, SurfaceArgs& args);
 void addSurfaceOptions(CLI::App& app, SurfaceArgs& args); ///< the same without the cage itself
-void addTriangles(CLI::App& app, TriangleArgs& args, const std::string& defaultPath);
+void addPath(CLI::App& app, std::string& word, const std::string& defaultWords);
+void addTriangles(CLI::App& app, TriangleArgs& args); ///< all but the path, which not every verb can choose
 void addNormal(CLI::App& app, std::string& word);
+void addCamera(CLI::App& app, CameraArgs& args);
 void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
+
+NormalKind normalKind(const std::string& word);
+/// "": tessellation where the device has it, else grid.
+Path pathOf(const std::string& word, const Device& device);
+TriangleOptions triangleOptions(const TriangleArgs& args, const Device& device);
+Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points);
+
+double secondsNow();
 
 /// A cage with everything made of it, in memory.
 struct Loaded {
@@ -67,12 +84,10 @@ struct Loaded {
     [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
 };
 Loaded load(const SurfaceArgs& args, const Output& output);
+/// Points for framing: a coarse reference is enough.
+std::vector<dvec3> outlineOf(const Loaded& loaded);
 
 /// Throws when the validation layer (RELIEF_VALIDATE=1) complained.
 void checkValidation(const Device& device);
-
-NormalKind normalKind(const std::string& word);
-/// "": tessellation where the device has it, else grid.
-Path pathOf(const std::string& word, const Device& device);
 
 } // namespace relief::app

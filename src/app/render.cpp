@@ -23,28 +23,13 @@ Show showOf(const std::string& word) {
     return words.at(word);
 }
 
-/// Points for framing: a coarse reference is enough.
-std::vector<dvec3> outlineOf(const Loaded& loaded) {
-    if (loaded.dense) return {loaded.dense->positions.begin(), loaded.dense->positions.end()};
-    const ReferenceSurface coarse(loaded.cage, {.scheme = loaded.options.scheme, .isolation = 2});
-    return outline(coarse, loaded.heightMap());
-}
-
 RenderOptions renderOptions(const RenderArgs& args, const Device& device, const std::vector<dvec3>& points) {
     const PictureArgs& picture = args.picture;
-    CameraOptions camera = picture.camera;
-    if (picture.distance > 0) camera.distance = picture.distance;
-    if (!picture.lookAt.empty()) camera.lookAt = dvec3(picture.lookAt[0], picture.lookAt[1], picture.lookAt[2]);
-
-    RenderOptions options;
-    options.path = pathOf(picture.path, device);
-    options.rate = picture.rate;
-    options.edgePixels = picture.edgePixels;
-    options.normal = normalKind(picture.normal);
+    RenderOptions options{triangleOptions(picture.triangles, device)};
     options.show = showOf(picture.show);
-    options.camera = frameCamera(points, camera, double(picture.size[0]) / picture.size[1]);
+    options.camera = cameraOf(picture.camera, points);
     for (const dvec3& p : points) options.bounds.add(p);
-    options.lighting.keyAzimuth = picture.light.empty() ? camera.azimuth - 55 : picture.light[0];
+    options.lighting.keyAzimuth = picture.light.empty() ? picture.camera.options.azimuth - 55 : picture.light[0];
     options.lighting.keyElevation = picture.light.empty() ? 50 : picture.light[1];
     options.lighting.castsShadows = !picture.hasNoShadows;
     if (!picture.albedo.empty()) options.material.albedo = vec3(1);
@@ -141,7 +126,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     albedo.reset();
     malloc_trim(0);
     progress.advance();
-    Renderer renderer(device, {.width = args.picture.size[0], .height = args.picture.size[1]});
+    Renderer renderer(device, {.width = args.picture.camera.size[0], .height = args.picture.camera.size[1]});
     drawn.picture = renderer.render(model, options);
     progress.advance();
     checkValidation(device);
@@ -151,6 +136,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
 int render(const RenderArgs& args) {
     if (!args.target.ends_with(".png") && !args.target.ends_with(".exr"))
         fail(Failure::usage, "{}: pictures are written as .png or .exr", args.target);
+    checkWritable(args.target);
     Progress progress("rendering", 5, args.output.progress);
     const Drawn drawn = draw(args, progress);
     writePicture(args.target, drawn.picture, finishOf(args.picture));

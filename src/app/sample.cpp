@@ -79,6 +79,7 @@ std::string sampledRows(Device& device, const Model& model, const std::vector<Sa
 }
 
 int sample(const SampleArgs& args) {
+    checkWritable(args.target);
     const std::vector<SampleQuery> queries = readPoints(args.points);
     const Loaded loaded = load(args.surface, args.output);
     if (loaded.dense)

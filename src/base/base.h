@@ -107,6 +107,10 @@ void writeImage(const std::string& path, const Image& image, SampleType sample);
 /// written or `path` is something else than a file (a folder, a device).
 void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
+/// Throws what writeWhole would throw for a `path` that cannot be written, and leaves no file behind: to be asked
+/// before long work whose result goes there.
+void checkWritable(const std::string& path);
+
 /// Writes `bytes` as the file `path`, whole or not at all. Throws Failure::file when writing fails.
 void writeFile(const std::string& path, std::string_view bytes);
 

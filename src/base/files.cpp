@@ -117,6 +117,8 @@ void writeWhole(const std::string& path, const std::function<void(const std::str
     if (error) fail(Failure::file, "{}: cannot be written: {}", path, error.message());
 }
 
+void checkWritable(const std::string& path) { const TemporaryFile attempt(resolveTarget(path)); }
+
 void writeFile(const std::string& path, std::string_view bytes) {
     writeWhole(path, [&](const std::string& temporary) {
         std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));

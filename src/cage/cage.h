@@ -110,7 +110,8 @@ void checkMeshPath(const std::string& path);
 void checkMeshSize(const std::string& path, std::uint64_t vertexCount, std::uint64_t triangleCount, bool hasTexCoords);
 
 /// Writes by the extension of `path`, whole or not at all, through a buffer of 1 MiB: binary .ply, .obj that reads back
-/// to the same bits, or .glb (glTF 2.0: t turned to run down, triangles without area between their indices left out).
+/// to the same bits, or .glb (glTF 2.0: t turned to run down). .obj and .glb leave out triangles that name a vertex
+/// twice, which their readers refuse.
 /// Throws as the two checks above, Failure::input for a mesh without triangles, arrays that disagree, indices out of
 /// range and numbers that are not finite, Failure::file when writing fails.
 void writeMesh(const std::string& path, const DenseMesh& mesh, ShowProgress show = ShowProgress::never);

@@ -15,18 +15,6 @@ constexpr int kFloat = 5126, kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr std::uint64_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
-/// The validator objects to triangles that name a vertex twice.
-bool isDegenerate(const DenseMesh& mesh, std::size_t triangle) {
-    const std::uint32_t* i = &mesh.indices[3 * triangle];
-    return i[0] == i[1] || i[1] == i[2] || i[2] == i[0];
-}
-
-std::size_t soundTriangleCount(const DenseMesh& mesh) {
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) count += isDegenerate(mesh, i) ? 0 : 1;
-    return count;
-}
-
 /// Unit as nearly as floats can be: the validator allows 5e-4. Up where there is no direction.
 vec3 unitNormal(const vec3& normal) {
     const dvec3 n(normal);
@@ -104,10 +92,8 @@ void putHeaders(MeshFile& file, const std::string& json, const Arrays& arrays) {
 } // namespace
 
 void writeGlb(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
-    const std::size_t triangleCount = soundTriangleCount(mesh), vertexCount = mesh.positions.size();
-    if (triangleCount == 0)
-        fail(Failure::input, "{}: not written: every triangle of the mesh names a vertex twice", file.path());
-    const Arrays arrays = arraysOf(mesh, triangleCount);
+    const std::size_t vertexCount = mesh.positions.size();
+    const Arrays arrays = arraysOf(mesh, soundTriangleCount(mesh, file.path()));
     Progress progress("writing", mesh.indices.size() / 3 + 2 * vertexCount + mesh.texCoords.size(), show);
 
     putHeaders(file, describe(mesh, arrays), arrays);

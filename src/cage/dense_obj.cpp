@@ -45,6 +45,7 @@ void putValues(ObjLines& lines, std::string_view keyword, const std::vector<Vect
 } // namespace
 
 void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
+    soundTriangleCount(mesh, file.path()); // throws where nothing would be left
     const std::size_t triangleCount = mesh.indices.size() / 3;
     Progress progress("writing", mesh.positions.size() + mesh.texCoords.size() + mesh.normals.size() + triangleCount,
                       show);
@@ -53,6 +54,7 @@ void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
     putValues(lines, "vt", mesh.texCoords, progress);
     putValues(lines, "vn", mesh.normals, progress);
     putEach(triangleCount, progress, [&](std::size_t triangle) {
+        if (isDegenerate(mesh, triangle)) return;
         lines.word("f");
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t index = mesh.indices[3 * triangle + k] + 1;

@@ -92,6 +92,13 @@ void MeshFile::close() {
     if (std::fclose(file_.release()) != 0) failToWrite(); // a full disk may show only here
 }
 
+std::size_t soundTriangleCount(const DenseMesh& mesh, const std::string& path) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < mesh.indices.size() / 3; ++i) count += isDegenerate(mesh, i) ? 0 : 1;
+    if (count == 0) fail(Failure::input, "{}: not written: every triangle of the mesh names a vertex twice", path);
+    return count;
+}
+
 void checkMeshPath(const std::string& path) { formatOf(path); }
 
 void checkMeshSize(const std::string& path, std::uint64_t vertexCount, std::uint64_t triangleCount, bool hasTexCoords) {

@@ -46,6 +46,15 @@ void putEach(std::size_t count, Progress& progress, const Put& put) {
     }
 }
 
+/// It names a vertex twice: readers and validators refuse such faces.
+inline bool isDegenerate(const DenseMesh& mesh, std::size_t triangle) {
+    const std::uint32_t* i = &mesh.indices[3 * triangle];
+    return i[0] == i[1] || i[1] == i[2] || i[2] == i[0];
+}
+
+/// How many triangles do not; throws Failure::input when there is none.
+std::size_t soundTriangleCount(const DenseMesh& mesh, const std::string& path);
+
 /// The mesh has triangles and is valid. `show` is for a bar of the writer's own, which knows how often it walks over
 /// it.
 void writePly(MeshFile& file, const DenseMesh& mesh, ShowProgress show);

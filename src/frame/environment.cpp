@@ -143,6 +143,9 @@ Environment loadEnvironment(const std::string& path) {
         fail(Failure::input,
              "{}: an environment is a color picture of at least 8 x 4 pixels; this one is {} x {} with {} channels",
              path, file.width, file.height, file.channels);
+    if (file.width != 2 * file.height)
+        fail(Failure::input, "{}: an equirectangular environment is twice as wide as high; this one is {} x {}", path,
+             file.width, file.height);
     Image image = blank(file.width, file.height);
     for (int y = 0; y < file.height; ++y)
         for (int x = 0; x < file.width; ++x)

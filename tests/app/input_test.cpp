@@ -72,6 +72,14 @@ TEST(Inputs, thatDoNotFitTogetherAreRefused) {
                       "--scheme loop --size 64,64 --rate 4"));
 }
 
+TEST(Inputs, environmentsAreTwiceAsWideAsHigh) {
+    const TemporaryFolder folder;
+    Image image{17, 8, 3, std::vector<float>(17 * 8 * 3, 0.5f)};
+    writeImage(folder / "sky.exr", image, SampleType::real);
+    expectNoPicture(cagePath("cube"), {"--environment", folder / "sky.exr"}, Failure::input,
+                    {folder / "sky.exr", "twice as wide as high", "17 x 8"});
+}
+
 TEST(Inputs, withNumbersThatAreNoneNameTheTexel) {
     const TemporaryFolder folder;
     Image image = sineImage(16, 1);
@@ -94,7 +102,26 @@ TEST(Outputs, thatCannotBeWrittenExitWith4AndLeaveNothing) {
     putFile(folder / "points.csv", "0,0.5,0.5\n");
     expectRefused(relief({"sample", cagePath("cube"), "--at", folder / "points.csv", "-o", folder / "none/a.csv"}),
                   Failure::file, {folder / "none/a.csv"});
+    expectRefused(relief({"export", cagePath("cube"), "-o", folder / "none/a.ply"}, "--rate 2"), Failure::file,
+                  {folder / "none/a.ply"});
     EXPECT_EQ(folder.fileCount(), 3u);
+}
+
+// Nobody waits for a result that has nowhere to go: the output is tried before any input is read.
+TEST(Outputs, thatCannotBeWrittenAreSaidFirst) {
+    const TemporaryFolder folder;
+    const auto refuse = [&](Words words, const std::string& target) {
+        words.insert(words.end(), {"none.obj", "-o", target});
+        expectRefused(relief(words), Failure::file, {target});
+    };
+    refuse({"render"}, folder / "none/a.png");
+    refuse({"export"}, folder / "none/a.ply");
+    refuse({"sample", "--at", "none.csv"}, folder / "none/a.csv");
+    for (const Words& words :
+         {Words{"render", "none.obj", "-o", folder / "a.png"}, Words{"export", "none.obj", "-o", folder / "a.ply"},
+          Words{"sample", "none.obj", "--at", "none.csv", "-o", folder / "a.csv"}})
+        expectRefused(relief(words), Failure::file, {"none."});
+    EXPECT_EQ(folder.fileCount(), 0u);
 }
 
 TEST(Outputs, keepTheOldPictureWhenSomethingFails) {

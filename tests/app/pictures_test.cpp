@@ -58,6 +58,15 @@ TEST_F(Drawn, everyNormalIsAPictureOfItsOwn) {
     expectAllDifferent(pictures, 0.05);
 }
 
+TEST_F(Drawn, everyPathKnowsBothSpacings) {
+    for (const std::string path : {"tessellation", "grid", "dice"}) {
+        const std::string more = "--scale 0.1 --size 96,96 --edge-pixels 7.7 --show wireframe --path " + path;
+        expectAllDifferent({{path + " equal", drawAs(folder_ / "a.png", more)},
+                            {path + " fractional", drawAs(folder_ / "b.png", more + " --spacing fractional")}},
+                           0.02);
+    }
+}
+
 TEST_F(Drawn, negativeAnglesAreAngles) {
     std::vector<std::pair<std::string, Image>> pictures;
     for (const char* options :

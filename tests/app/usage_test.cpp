@@ -4,7 +4,7 @@
 namespace relief::test {
 namespace {
 
-const Words kVerbs = {"render", "sample", "check", "info"};
+const Words kVerbs = {"render", "export", "sample", "check", "info"};
 
 TEST(Help, ofEveryVerbShowsExamples) {
     for (const std::string& verb : kVerbs) {
@@ -31,8 +31,12 @@ TEST(Help, namesEveryOption) {
           "--rate",      "--normal",    "--edge-pixels", "--size",       "--azimuth",     "--elevation", "--distance",
           "--look-at",   "--fov",       "--albedo",      "--light",      "--environment", "--show",      "--json",
           "--quiet",     "--verbose",   "--progress",    "--no-shadows", "--background",  "--device",    "--wrap",
-          "--roughness", "--color",     "--transparent"})
+          "--roughness", "--color",     "--transparent", "--spacing",    "--memory"})
         EXPECT_TRUE(contains(render, option)) << option;
+    const std::string mesh = relief({"export", "--help"}).out;
+    for (const char* option : {"--scheme", "--height", "--rate", "--edge-pixels", "--spacing", "--memory", "--normal",
+                               "--size", "--azimuth", "--look-at", "--device", "--json"})
+        EXPECT_TRUE(contains(mesh, option)) << option;
 }
 
 TEST(Version, isTheProjects) { EXPECT_EQ(relief({"--version"}).out, std::string("relief ") + RELIEF_VERSION + "\n"); }
@@ -71,6 +75,14 @@ TEST(Usage, wrongOptionsAreOneLineWithTheOption) {
         {"--channel -1", "--channel"},
         {"--wrap mirror", "repeat"},
         {"--path dense", "grid"},
+        {"--spacing odd", "fractional"},
+        {"--memory 2X", "1M..1T, such as 512M or 2G"},
+        {"--memory 12", "1M..1T"},
+        {"--memory 2T", "1M..1T"},
+        {"--memory -1G", "1M..1T"},
+        {"--memory nan", "1M..1T"},
+        {"--memory infG", "1M..1T"},
+        {"--memory G", "1M..1T"},
         {"--normal flat", "first-order"},
         {"--show everything", "wireframe"},
         {"--elevation 91", "-90..90"},
@@ -98,9 +110,26 @@ TEST(Usage, numbersThatAreNoneAreRefused) {
         expectRefused(relief({"render", cagePath("cube"), "-o", "never.png", option, value}), Failure::usage, {option});
 }
 
+TEST(Usage, optionsGivenTwiceAreSaidToBe) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"--rate 4 --rate 5", "--rate is given twice"},
+        {"--rate=4 --rate 5 --rate 6", "--rate is given twice"},
+        {"--size 8,8 --size 9,9", "--size is given twice"},
+        {"--height a.exr --height b.exr", "--height is given twice"},
+        {"--progress never --progress always", "--progress is given twice"},
+        {"--memory 1G --memory 2G", "--memory is given twice"},
+        {"-o b.png", "-o is given twice"},
+        {"-ob.png", "-o is given twice"},
+        {"--output b.png", "--output is given twice"},
+    };
+    for (const auto& [line, words] : cases)
+        expectRefused(relief({"render", cagePath("cube"), "-o", "never.png"}, line), Failure::usage, {words});
+}
+
 TEST(Usage, missingOptionsAreNamed) {
     expectRefused(relief({"render"}), Failure::usage, {"cage"});
     expectRefused(relief({"render", cagePath("cube")}), Failure::usage, {"--output"});
+    expectRefused(relief({"export", cagePath("cube")}), Failure::usage, {"--output"});
     expectRefused(relief({"sample", cagePath("cube"), "-o", "never.csv"}), Failure::usage, {"--at"});
     expectRefused(relief({"info"}), Failure::usage, {"--devices"});
 }
@@ -119,6 +148,13 @@ TEST(Usage, ratesThatThePathCannotDoAreRefusedWithTheRange) {
     expectRefused(relief(words, "--path grid --rate 1025"), Failure::usage, {"1..1024"});
     EXPECT_EQ(folder.fileCount(), 0u);
     expectDone(relief(words, "--path grid --rate 65"));
+}
+
+TEST(Usage, memoryThatADicedMeshPassesIsRefused) {
+    const TemporaryFolder folder;
+    expectRefused(relief({"render", cagePath("cube"), "-o", folder / "a.png"}, "--path dice --rate 200 --memory 1M"),
+                  Failure::device, {"1.0 MB are allowed", "--memory"});
+    EXPECT_EQ(folder.fileCount(), 0u);
 }
 
 TEST(Usage, picturesOfUnknownKindsAreRefusedBeforeTheyAreDrawn) {

@@ -87,6 +87,19 @@ TEST(WriteWhole, bearsTheLongestNames) {
     EXPECT_EQ(readFile(path), "x");
 }
 
+TEST(CheckWritable, saysWhatWritingWouldSayAndLeavesNothing) {
+    const TemporaryFolder folder;
+    putFile(folder / "file", "old");
+    for (const std::string& path : {folder / "none/a.txt", folder / "file/a.txt", std::string("/proc/a.txt")})
+        expectFailure(Failure::file, {path}, [&] { checkWritable(path); });
+    expectFailure(Failure::file, {"ordinary file"}, [&] { checkWritable(folder.path.string()); });
+    expectFailure(Failure::usage, {"no name"}, [] { checkWritable(""); });
+    EXPECT_NO_THROW(checkWritable(folder / "new"));
+    EXPECT_NO_THROW(checkWritable(folder / "file"));
+    EXPECT_EQ(readFile(folder / "file"), "old");
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
 TEST(ReadFile, givesAllBytes) {
     const TemporaryFolder folder;
     const std::string bytes("a\0b\r\n\xff", 6);

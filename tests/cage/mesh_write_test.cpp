@@ -155,6 +155,14 @@ TEST(WriteDenseObj, readsBackToTheSameBitsWhateverTheNumbers) {
     expectObjRoundTrip(mesh);
 }
 
+TEST(WriteDenseObj, leavesOutTrianglesThatNameAVertexTwice) {
+    DenseMesh mesh = square();
+    mesh.indices = {0, 0, 1, 0, 1, 2, 1, 2, 2, 3, 1, 3, 0, 2, 3};
+    EXPECT_EQ(parseObj(written(mesh, "a.obj"), "a.obj").corners, square().indices);
+    mesh.indices = {0, 0, 1};
+    expectFailure(Failure::input, {"a.obj", "twice"}, [&] { written(mesh, "a.obj"); });
+}
+
 // --- glTF -------------------------------------------------------------------------------------------------------
 
 /// A .glb taken apart: what the JSON says and what the bytes hold.

@@ -1,0 +1,140 @@
+#include <filesystem>
+#include <iostream>
+
+#include <malloc.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+
+namespace relief::app {
+namespace {
+
+struct ExportArgs {
+    SurfaceArgs surface;
+    TriangleArgs triangles{.path = "dice"};
+    CameraArgs camera;
+    Output output;
+    std::string target, device;
+};
+
+/// A mesh and what is told of it, when everything that made it is gone.
+struct Exported {
+    DenseMesh mesh;
+    std::string device;
+    std::uint64_t sampleCount = 0;
+    double loadSeconds = 0, surfaceSeconds = 0, rateMs = 0, diceMs = 0, writeSeconds = 0;
+};
+
+DenseMesh readBack(Device& device, const DicedMesh& diced, bool hasTexCoords) {
+    DenseMesh mesh;
+    std::vector<vec4> texels(2 * std::size_t(diced.vertexCount)); // position and height, normal
+    downloadBytes(device, diced.vertices.buffer, std::as_writable_bytes(std::span(texels)));
+    mesh.positions.reserve(diced.vertexCount);
+    mesh.normals.reserve(diced.vertexCount);
+    for (std::size_t i = 0; i < texels.size(); i += 2) {
+        mesh.positions.emplace_back(texels[i]);
+        mesh.normals.emplace_back(texels[i + 1]);
+    }
+    mesh.indices.resize(3 * std::size_t(diced.triangleCount));
+    downloadBytes(device, diced.indices, std::as_writable_bytes(std::span(mesh.indices)));
+    if (!hasTexCoords) return mesh;
+    mesh.texCoords.resize(diced.vertexCount);
+    downloadBytes(device, diced.texCoords.buffer, std::as_writable_bytes(std::span(mesh.texCoords)));
+    return mesh;
+}
+
+EdgeRates ratesOf(Device& device, const Model& model, const Loaded& loaded, const ExportArgs& args, double& rateMs) {
+    View view;
+    if (!args.triangles.rate) view = viewOf(cameraOf(args.camera, outlineOf(loaded)), args.camera.size[1]);
+    return EdgeRater(device).rates(model, triangleOptions(args.triangles, device), view, &rateMs);
+}
+
+/// Whatever made the mesh gives its memory back before the mesh is written.
+Exported dice(const ExportArgs& args) {
+    Progress progress("dicing", 4, args.output.progress);
+    const Loaded loaded = load(args.surface, args.output);
+    if (loaded.dense)
+        fail(Failure::usage, "{}: only a subdivision surface has triangles to make; name its --scheme",
+             args.surface.cage);
+    progress.advance();
+    Device device({.name = args.device});
+    const Model model(
+        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    progress.advance();
+
+    Exported exported{
+        .device = device.traits().name, .loadSeconds = loaded.loadSeconds, .surfaceSeconds = loaded.surfaceSeconds};
+    const EdgeRates rates = ratesOf(device, model, loaded, args, exported.rateMs);
+    const bool hasTexCoords = loaded.cage.hasTexCoords();
+    const DicedMesh diced = Dicer(device).dice(
+        model, rates,
+        {.normal = normalKind(args.triangles.normal), .wantsTexCoords = hasTexCoords, .memory = args.triangles.memory});
+    progress.advance();
+    checkMeshSize(args.target, diced.vertexCount, diced.triangleCount, hasTexCoords);
+    exported.mesh = readBack(device, diced, hasTexCoords);
+    exported.sampleCount = diced.sampleCount;
+    exported.diceMs = diced.milliseconds;
+    progress.advance();
+    checkValidation(device);
+    return exported;
+}
+
+void report(const ExportArgs& args, const Exported& exported) {
+    const std::size_t vertexCount = exported.mesh.positions.size(), triangleCount = exported.mesh.indices.size() / 3;
+    const std::uint64_t bytes = std::filesystem::file_size(args.target);
+    if (args.output.isJson) {
+        std::cout << nlohmann::json{{"mesh", args.target},
+                                    {"device", exported.device},
+                                    {"vertices", vertexCount},
+                                    {"triangles", triangleCount},
+                                    {"samples", exported.sampleCount},
+                                    {"bytes", bytes},
+                                    {"load_ms", 1e3 * exported.loadSeconds},
+                                    {"surface_ms", 1e3 * exported.surfaceSeconds},
+                                    {"rate_ms", exported.rateMs},
+                                    {"dice_ms", exported.diceMs},
+                                    {"write_ms", 1e3 * exported.writeSeconds}}
+                         .dump(2)
+                  << '\n';
+    } else if (!args.output.isQuiet) {
+        std::cerr << fmt::format("{}: {} vertices, {} triangles, {}, diced on {}\n", args.target, vertexCount,
+                                 triangleCount, humanBytes(bytes), exported.device);
+        if (args.output.isVerbose)
+            std::cerr << fmt::format(
+                "load {:.0f} ms, surface {:.0f} ms, rates {:.1f} ms, dicing {:.1f} ms, writing {:.0f} ms, {} samples\n",
+                1e3 * exported.loadSeconds, 1e3 * exported.surfaceSeconds, exported.rateMs, exported.diceMs,
+                1e3 * exported.writeSeconds, exported.sampleCount);
+    }
+}
+
+int exportMesh(const ExportArgs& args) {
+    checkMeshPath(args.target);
+    checkWritable(args.target);
+    Exported exported = dice(args);
+    malloc_trim(0);
+    const double start = secondsNow();
+    writeMesh(args.target, exported.mesh, args.output.progress);
+    exported.writeSeconds = secondsNow() - start;
+    report(args, exported);
+    return 0;
+}
+
+} // namespace
+
+Run addExport(CLI::App& app) {
+    auto args = std::make_shared<ExportArgs>();
+    addSurface(app, args->surface);
+    app.add_option("-o,--output", args->target, "mesh to write: .ply, .obj or .glb")->required()->option_text("MESH");
+    addTriangles(app, args->triangles);
+    addCamera(app, args->camera);
+    addDevice(app, args->device);
+    addOutput(app, args->output);
+    app.footer("the camera is what --edge-pixels are seen by\n"
+               "examples:\n"
+               "  relief export cage.obj --height map.exr --rate 32 -o dense.ply\n"
+               "  relief export cage.obj --height map.exr --edge-pixels 1 --size 3840,2160 -o hero.glb");
+    return [args] { return exportMesh(*args); };
+}
+
+} // namespace relief::app
