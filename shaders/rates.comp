@@ -8,10 +8,11 @@ layout(local_size_x = 64) in;
 layout(set = 0, binding = kBindEdgeHeights) uniform samplerBuffer edgeHeightTexels;
 
 // Length in pixels of the displaced edge seen face-on from its distance: direction does not shorten it, so silhouettes
-// keep their detail. Between the samples heights may go up and down unseen: once through all their range is counted.
+// keep their detail. Between the samples heights may go up and down unseen: once through all their range is
+// counted.
 float pixelLength(uint edge) {
     const uint pieces = 4u;
-    float pixels = 0.0, straight = 0.0, nearest = 1e30;
+    float pixels = 0.0, straight = 0.0, middle = 0.0;
     vec3 last = vec3(0), lastLimit = vec3(0);
     for (uint k = 0u; k <= pieces; ++k) {
         Place place = edgePlace(edge, k, pieces, float(pieces));
@@ -20,12 +21,12 @@ float pixelLength(uint edge) {
         float distance = max(length(0.5 * (q + last) - scene.eye), scene.nearDistance);
         if (k > 0u) pixels += length(q - last) * scene.pixelsAtUnitDistance / distance;
         if (k > 0u) straight += length(s.p - lastLimit);
-        nearest = min(nearest, max(length(q - scene.eye), scene.nearDistance));
+        if (2u * k == pieces) middle = max(length(q - scene.eye), scene.nearDistance);
         last = q;
         lastLimit = s.p;
     }
     float range = texelFetch(edgeHeightTexels, int(edge)).x;
-    return max(pixels, length(vec2(straight, 2.0 * range)) * scene.pixelsAtUnitDistance / nearest);
+    return max(pixels, length(vec2(straight, range)) * scene.pixelsAtUnitDistance / middle);
 }
 
 void main() {

@@ -69,6 +69,8 @@ public:
     [[nodiscard]] bool hasHeight() const { return mapSize_.x > 0; }
     [[nodiscard]] bool hasAlbedoMap() const { return hasAlbedo_; }
     [[nodiscard]] Wrap wrap() const { return wrap_; }
+    /// Bytes of the height map on the device, with its mips.
+    [[nodiscard]] std::uint64_t heightBytes() const { return hasHeight() ? heights_.buffer.bytes : 0; }
     /// Bytes resident on the device: buffers and textures.
     [[nodiscard]] std::uint64_t byteCount() const { return byteCount_; }
 
