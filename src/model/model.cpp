@@ -146,7 +146,7 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
 void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     std::vector<vec4> vertices;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        vertices.emplace_back(mesh.positions[i], 0.0f); // no height
+        vertices.emplace_back(mesh.positions[i], mesh.heights.empty() ? 0.0f : mesh.heights[i]);
         vertices.emplace_back(mesh.normals[i], 0.0f);
     }
     mesh_ = uploadTexels(device, {.name = "mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(vertices)));
@@ -160,6 +160,7 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     indexCount_ = std::uint32_t(mesh.indices.size());
     vertexCount_ = std::uint32_t(mesh.positions.size());
     hasTexCoords_ = !mesh.texCoords.empty();
+    heightReach_ = 1;
     isDense_ = true;
 }
 

@@ -226,6 +226,9 @@ struct CapturedMesh {
 CapturedMesh captureTriangles(Device& device, const Model& model, const TriangleOptions& options,
                               const EdgeRates& rates);
 
+/// How many triangles captureTriangles has to find.
+std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates);
+
 /// Segments of all edges of the cage that have one drawn face.
 std::uint64_t boundarySegments(const Model& model, const EdgeRates& rates);
 
