@@ -9,12 +9,13 @@ namespace relief::app {
 namespace {
 
 constexpr int kPictureSide = 1024;
+constexpr double kDecades = 3; // of errors, from white to what is promised
 
 /// A value that is not finite is as wrong as can be.
 double errorHeat(const SampleError& error, const Promises& promises) {
     const double share = std::max(error.point / promises.point, error.tangent / promises.tangent);
     if (!std::isfinite(error.point + error.tangent)) return 1;
-    return std::clamp(1 + std::log10(std::max(share, 1e-3)) / 3, 0.0, 1.0);
+    return std::clamp(1 + std::log10(share) / kDecades, 0.0, 1.0);
 }
 
 double foldHeat(double factor) { return std::isfinite(factor) ? std::clamp(1 - 2 * factor, 0.0, 1.0) : 0; }
@@ -52,7 +53,7 @@ std::vector<float> heatValues(const Heat& heat) {
     for (std::size_t i = 0; i < heat.results.size(); ++i) {
         const double error = errorHeat(heat.errors[i], heat.promises);
         const double fold = heat.samples.hasCurvature[i] ? foldHeat(foldFactor(heat.results[i])) : 0;
-        values.push_back(float(fold > error ? -fold : error));
+        values.push_back(float(fold > 0 ? -fold : error));
     }
     return values;
 }
