@@ -49,7 +49,7 @@ void main() {
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     uint n = halvesOf(tile.segments).x;
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
-        uvec2 ij = first + uvec2(k % size.x, k / size.x);
+        uvec2 ij = first + divided(k, size.x).yx;
         if (ij.x + ij.y >= n) continue;
         vec2 uv = insidePoint(tile, ij);
         DisplacedSample s = displaced(tile.face, uv, insidePlace(tile.face, uv));
@@ -75,13 +75,14 @@ void loadTile(Patch patch_) {
 void main() {
     InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
     Patch patch_ = fetchPatch(tile.patchIndex);
+    if (kIsCommon) patch_.type = patch_.texType = kPatchRegular;
     loadTile(patch_);
     patch_.firstPoint = patch_.texFirstPoint = 0u;
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     float scale = float(1u << tile.depth);
     vec2 origin = vec2(halvesOf(tile.origin));
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
-        uvec2 ij = first + uvec2(k % size.x, k / size.x);
+        uvec2 ij = first + divided(k, size.x).yx;
         vec2 uv = insidePoint(tile, ij);
         DisplacedSample s = displacedInLeaf(patch_, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
                                              faceLevel(tile.face, uv));

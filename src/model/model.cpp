@@ -130,6 +130,8 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     edges_ = s.edges;
     tree_ = s.tree;
     for (const Corner& corner : s.corners) cornerFlags_.push_back(corner.flags);
+    for (const Patch& patch : s.patches)
+        patchIsRegular_.push_back(patch.type == kPatchRegular && (!s.hasTexCoords() || patch.texType == kPatchRegular));
     sideCount_ = s.sideCount;
     hasTexCoords_ = s.hasTexCoords();
     edgeIsHalf_.assign(s.edges.size(), false);

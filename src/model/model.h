@@ -47,6 +47,8 @@ public:
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] const std::vector<std::uint32_t>& tree() const { return tree_; } ///< as Surface::tree
+    /// Whether the points of a leaf patch and its texture coordinates are both bicubic.
+    [[nodiscard]] bool isRegular(std::uint32_t patch) const { return patchIsRegular_[patch]; }
     /// Length of each edge in texels of the height map; measured when first asked for (empty then).
     [[nodiscard]] std::vector<float>& edgeTexels() const { return edgeTexels_; }
     /// Which vertices a diced mesh has; made when first asked for.
@@ -78,7 +80,7 @@ private:
     mutable std::unique_ptr<DiceTable> diceTable_;
     mutable std::vector<float> edgeTexels_;
     std::vector<std::uint32_t> mapFirsts_; ///< where the texels of each level begin
-    std::vector<bool> edgeIsHalf_;
+    std::vector<bool> edgeIsHalf_, patchIsRegular_;
     std::vector<std::uint32_t> cornerFlags_;
     std::uint32_t indexCount_ = 0, vertexCount_ = 0;
     int sideCount_ = 4;
@@ -187,13 +189,15 @@ struct DicedMesh {
     std::uint64_t sampleCount = 0;             ///< distinct samples
     std::uint32_t vertexCount = 0, triangleCount = 0, maxRate = 0;
     std::uint64_t byteCount = 0;
-    double milliseconds = 0; ///< on the device; 0 where it cannot time
+    double milliseconds = 0;       ///< on the device; 0 where it cannot time
+    double vertexMilliseconds = 0; ///< without the triangles; only where DiceOptions asks for it
 };
 
 struct DiceOptions {
     NormalKind normal = NormalKind::full;
     bool wantsTexCoords = false;
     std::optional<std::uint64_t> memory;
+    bool timesVertices = false; ///< apart from the triangles: one more wait for the device
 };
 
 class Dicer {
