@@ -245,15 +245,17 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     constants.wantsTexCoords = options.wantsTexCoords;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
-    const std::uint32_t edgeVertices = work.runFirsts.back();
+    const std::uint32_t edgeVertices = work.runFirsts[table.firstSmoothRun];
     const auto regularCount = std::uint32_t(work.regularCount);
-    Pass passes[] = {{"dice_insides.comp", regularCount, {}, true},
-                     {"dice_insides.comp", work.insides.size() - regularCount, {.passFirst = regularCount}},
-                     {"dice_edges.comp",
-                      (edgeVertices + constants.groupSize - 1) / constants.groupSize,
-                      {.passNumber = edgeVertices}},
-                     {"dice_triangles.comp", work.cells.size(), {.passFirst = firstCell}, true},
-                     {"dice_triangles.comp", work.rings.size(), {.passFirst = firstRing}}};
+    Pass passes[] = {
+        {"dice_insides.comp", regularCount, {}, true},
+        {"dice_insides.comp", work.insides.size() - regularCount, {.passFirst = regularCount}},
+        {"dice_edges.comp",
+         (edgeVertices + constants.groupSize - 1) / constants.groupSize,
+         {.passNumber = edgeVertices}},
+        {"dice_smooth_edges.comp", table.runs.size() - table.firstSmoothRun, {.passFirst = table.firstSmoothRun}},
+        {"dice_triangles.comp", work.cells.size(), {.passFirst = firstCell}, true},
+        {"dice_triangles.comp", work.rings.size(), {.passFirst = firstRing}}};
     for (Pass& pass : passes) {
         if (pass.groups == 0) continue; // what is not needed is not compiled
         constants.isCommon = pass.isCommon;
