@@ -1,10 +1,11 @@
 // relief_bench: the same displaced triangles drawn by each path and as a static dense mesh, in one run; what splitting
-// draws is worth on this device; what a cold start costs; what other evaluators take on the processor. Absolute times
-// are noise between runs: quote the ratios.
+// draws is worth on this device; what a cold start costs; the dicer next to other evaluators. Absolute times are noise
+// between runs: quote the ratios.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <thread>
 
@@ -94,10 +95,11 @@ void measure(Renderer& renderer, const RenderOptions& base, std::vector<Series>&
 void print(const std::vector<Series>& all) {
     const Series& base = all.back();
     for (const Series& series : all)
-        std::cout << fmt::format(
-            "{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x   dicing {:6.1f} ms\n", series.name,
-            series.triangles, median(series.device), median(series.device) / median(base.device), median(series.wall),
-            median(series.wall) / median(base.wall), median(series.dice));
+        std::cout << fmt::format("{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x "
+                                 "  dicing {:6.1f} ms\n",
+                                 series.name, series.triangles, median(series.device),
+                                 median(series.device) / median(base.device), median(series.wall),
+                                 median(series.wall) / median(base.wall), median(series.dice));
 }
 
 int benchFrame() {
@@ -122,31 +124,104 @@ int benchFrame() {
     return 0;
 }
 
-/// Displaced vertices per second of the dicer.
-int benchDice() {
-    Subject subject;
-    Device device;
-    const Model displaced(
-        device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
-    const Model smooth(device, {.surface = &subject.surface, .cagePositions = subject.cage.positions});
-    EdgeRater rater(device);
-    Dicer dicer(device);
-    const EdgeRates rates = rater.rates(displaced, subject.options, {});
-    for (const auto& [name, model, normal] :
-         {std::tuple{"full normals, heights", &displaced, NormalKind::full},
-          std::tuple{"first-order normals, heights", &displaced, NormalKind::firstOrder},
-          std::tuple{"limit normals, heights", &displaced, NormalKind::limit},
-          std::tuple{"limit normals, no heights", &smooth, NormalKind::limit}}) {
-        std::vector<double> times;
-        std::uint32_t vertices = 0;
-        for (int round = 0; round <= kRounds; ++round) {
-            const DicedMesh mesh = dicer.dice(*model, rates, {.normal = normal});
-            vertices = mesh.vertexCount;
-            if (round > 0) times.push_back(mesh.milliseconds);
+/// One contestant of `dice`: what it makes, how much of it, and how long that takes.
+struct Contestant {
+    std::string name, what;
+    std::size_t count = 0;
+    std::vector<double> rounds; ///< milliseconds
+
+    [[nodiscard]] double rate() const { return double(count) / median(rounds) / 1e3; } ///< million a second
+};
+
+/// Dices one model each round; of the same mesh, the vertices alone and with the triangles between them.
+class DiceContest {
+public:
+    DiceContest(Device& device, const Model& model, const EdgeRates& rates, NormalKind normal, const std::string& what)
+        : dicer_(device), model_(model), rates_(rates),
+          normal_(normal), vertices_{"relief dicer, vertices", what, 0, {}}, mesh_{"relief dicer, with triangles",
+                                                                                   what,
+                                                                                   0,
+                                                                                   {}} {}
+
+    /// The first round compiles shaders: it does not count.
+    void run() {
+        const DicedMesh mesh = dicer_.dice(model_, rates_, {.normal = normal_, .timesVertices = true});
+        vertices_.count = mesh_.count = mesh.vertexCount;
+        if (isWarm_) {
+            vertices_.rounds.push_back(mesh.vertexMilliseconds);
+            mesh_.rounds.push_back(mesh.milliseconds);
         }
-        std::cout << fmt::format("dice: {:30} {:8} vertices {:8.1f} ms (least {:.1f}), {:.2f} million a second\n", name, vertices,
-                                 median(times), *std::ranges::min_element(times), vertices / median(times) / 1e3);
+        isWarm_ = true;
     }
+    [[nodiscard]] const Contestant& vertices() const { return vertices_; }
+    [[nodiscard]] const Contestant& mesh() const { return mesh_; }
+
+private:
+    Dicer dicer_;
+    const Model& model_;
+    const EdgeRates& rates_;
+    NormalKind normal_;
+    Contestant vertices_, mesh_;
+    bool isWarm_ = false;
+};
+
+/// The evaluators of others beside `dice`, or none where they are not built in.
+std::vector<Contestant> timeOpponents(const Subject& subject, int isolation, const std::function<void()>& dice) {
+    std::vector<Contestant> opponents;
+#ifdef RELIEF_EVALUATORS
+    const std::vector<bench::PatchPoint> points = bench::gridPoints(subject.cage, subject.rate);
+    for (const bench::EvaluatorTime& time : bench::timeEvaluators(subject.cage, isolation, points, dice))
+        opponents.push_back(
+            {time.name,
+             fmt::format("p, p_u, p_v; off by {:.0e}, {:.0e} in end caps", time.pointError, time.endCapError),
+             points.size(), time.rounds});
+#else
+    (void)subject, (void)isolation;
+    std::cout << "dice: relief_bench was built without Embree or OpenMP: there are no opponents\n";
+    for (int round = 0; round <= kRounds; ++round) dice();
+#endif
+    return opponents;
+}
+
+/// Ratios are to the fastest of `opponents`.
+void print(const std::vector<Contestant>& own, const std::vector<Contestant>& opponents) {
+    double fastest = 0;
+    for (const Contestant& c : opponents) fastest = std::max(fastest, c.rate());
+    for (const std::vector<Contestant>* all : {&own, &opponents})
+        for (const Contestant& c : *all)
+            std::cout << fmt::format("{:28} {:8} points {:7.1f} ms (least {:6.1f}) {:6.2f} M/s {:>8}  {}\n", c.name,
+                                     c.count, median(c.rounds), *std::ranges::min_element(c.rounds), c.rate(),
+                                     fastest > 0 ? fmt::format("{:.2f} x", c.rate() / fastest) : "", c.what);
+}
+
+/// Displaced vertices per second of the dicer, next to the evaluators of others on the processor.
+int benchDice() {
+    constexpr int kIsolation = 3; // of all of them: depth of the patch tables at extraordinary vertices
+    Subject subject;
+    const Surface surface = buildSurface(subject.cage, {.isolation = kIsolation});
+    Device device;
+    const Model displaced(device,
+                          {.surface = &surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    const Model smooth(device, {.surface = &surface, .cagePositions = subject.cage.positions});
+    EdgeRater rater(device);
+    const EdgeRates rates = rater.rates(displaced, subject.options, {});
+    std::cout << fmt::format(
+        "dice: {} at rate {}, isolation {}, on {}; others: {} threads\n"
+        "Others evaluate limit points and first derivatives of (rate + 1)^2 points a face, into arrays that wait for\n"
+        "them. The dicer evaluates each distinct point once, with first and second derivatives and the height with "
+        "its\n"
+        "central differences, and writes displaced points and normals into a new buffer; then the triangles.\n",
+        subject.path, subject.rate, kIsolation, device.traits().name, std::thread::hardware_concurrency());
+    DiceContest full(device, displaced, rates, NormalKind::full, "full normals, heights");
+    DiceContest first(device, displaced, rates, NormalKind::firstOrder, "first-order normals, heights");
+    DiceContest limit(device, smooth, rates, NormalKind::limit, "limit normals, no heights: what the others do");
+    const std::vector<Contestant> opponents = timeOpponents(subject, kIsolation, [&] {
+        for (DiceContest* contest : {&full, &first, &limit}) contest->run();
+    });
+    std::vector<Contestant> own;
+    for (const DiceContest* contest : {&full, &first, &limit})
+        own.insert(own.end(), {contest->vertices(), contest->mesh()});
+    print(own, opponents);
     return 0;
 }
 
@@ -231,25 +306,6 @@ int benchCold() {
     return 0;
 }
 
-/// Limit points with both first derivatives a second: the CPU evaluators of others.
-int benchEvaluators() {
-#ifdef RELIEF_EVALUATORS
-    constexpr int kRate = 16, kIsolation = 3;
-    const std::string path = cagePath();
-    const Cage cage = readCage(path);
-    const std::vector<bench::PatchPoint> points = bench::gridPoints(cage, kRate);
-    std::cout << fmt::format("evaluators: {} at rate {}, isolation {}: {} points with first derivatives, {} threads\n",
-                             path, kRate, kIsolation, points.size(), std::thread::hardware_concurrency());
-    for (const bench::EvaluatorTime& time : bench::timeEvaluators(cage, kIsolation, points))
-        std::cout << fmt::format(
-            "{:28} {:8.1f} ms  {:6.2f} Mpoints/s   off by {:.1e}, slopes {:.1e}, end caps {:.1e}\n", time.name, time.ms,
-            double(points.size()) / time.ms / 1e3, time.pointError, time.slopeError, time.endCapError);
-#else
-    std::cout << "evaluators: relief_bench was built without Embree or OpenMP\n";
-#endif
-    return 0;
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
@@ -262,7 +318,6 @@ int main(int argc, char** argv) {
         if (runs("dice")) benchDice();
         if (runs("split")) benchSplit();
         if (runs("cold")) benchCold();
-        if (runs("evaluators")) benchEvaluators();
         return 0;
     } catch (const relief::Error& error) {
         std::cerr << "relief_bench: " << error.what() << '\n';

@@ -30,6 +30,18 @@ InsideTile fetchInsideTile(uint i) {
     return InsideTile(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);
 }
 
+// x / d and x % d, for x < 2^23, by a float and a correction: CPU drivers divide integers lane by lane.
+uvec2 divided(uint x, uint d) {
+    uint quotient = uint(float(x) / float(d));
+    if (quotient * d > x) --quotient;
+    uint rest = x - quotient * d;
+    return rest < d ? uvec2(quotient, rest) : uvec2(quotient + 1u, rest - d);
+}
+
+// The common case, known when the shader is compiled, for CPU drivers run both sides of every branch: insides in bicubic
+// patches, of the surface and of its texture coordinates; triangles between inner samples.
+layout(constant_id = 9) const bool kIsCommon = false;
+
 uvec2 halvesOf(uint packed) { return uvec2(packed & 0xffffu, packed >> 16); }
 
 void storeVertex(uint vertex, vec3 q, float h, vec3 normal, vec2 st, bool hasTexCoords) {

@@ -3,24 +3,14 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "dice.glsl"
 
-// The samples inside faces, a workgroup a tile. All samples of a tile lie in one leaf patch, so the control points are fetched
-// once and shared: on CPU drivers the loads that follow have constant addresses and serve all lanes at once.
+// The samples inside faces, a workgroup a tile.
 layout(local_size_x_id = 7) in;
 
-#ifndef RELIEF_TRIANGLES
-const uint kMostPoints = 20u;
-shared vec3 sharedPoints[kMostPoints];
-shared vec2 sharedTexPoints[kMostPoints];
-vec3 ownPoints[kMostPoints];
-vec2 ownTexPoints[kMostPoints];
-
-vec3 tilePoint(uint i) { return ownPoints[i]; }
-vec2 tileTexPoint(uint i) { return ownTexPoints[i]; }
-#define RELIEF_PATCH_POINT tilePoint
-#define RELIEF_TEX_PATCH_POINT tileTexPoint
-#define RELIEF_UNROLL [[unroll]] // constant places in the arrays
-#endif
+#ifdef RELIEF_TRIANGLES
 #include "displaced.glsl"
+#else
+#include "dice_tile.glsl"
+#endif
 
 vec2 insidePoint(InsideTile tile, uvec2 ij) {
     uvec2 segments = halvesOf(tile.segments);
@@ -49,7 +39,7 @@ void main() {
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     uint n = halvesOf(tile.segments).x;
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
-        uvec2 ij = first + uvec2(k % size.x, k / size.x);
+        uvec2 ij = first + divided(k, size.x).yx;
         if (ij.x + ij.y >= n) continue;
         vec2 uv = insidePoint(tile, ij);
         DisplacedSample s = displaced(tile.face, uv, insidePlace(tile.face, uv));
@@ -59,29 +49,17 @@ void main() {
 
 #else
 
-void loadTile(Patch patch_) {
-    for (uint i = gl_LocalInvocationID.x; i < kMostPoints; i += gl_WorkGroupSize.x) {
-        if (i < patchSize(patch_.type)) sharedPoints[i] = patchPoint(patch_.firstPoint + i);
-        if (kHasTexCoords && i < patchSize(patch_.texType)) sharedTexPoints[i] = texPatchPoint(patch_.texFirstPoint + i);
-    }
-    barrier();
-    // Here, outside all branches, where a load with a constant address is one load for all lanes.
-    [[unroll]] for (uint i = 0u; i < kMostPoints; ++i) ownPoints[i] = sharedPoints[i];
-    if (kHasTexCoords) {
-        [[unroll]] for (uint i = 0u; i < kMostPoints; ++i) ownTexPoints[i] = sharedTexPoints[i];
-    }
-}
-
 void main() {
     InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
     Patch patch_ = fetchPatch(tile.patchIndex);
+    if (kIsCommon) patch_.type = patch_.texType = kPatchRegular;
     loadTile(patch_);
     patch_.firstPoint = patch_.texFirstPoint = 0u;
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     float scale = float(1u << tile.depth);
     vec2 origin = vec2(halvesOf(tile.origin));
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
-        uvec2 ij = first + uvec2(k % size.x, k / size.x);
+        uvec2 ij = first + divided(k, size.x).yx;
         vec2 uv = insidePoint(tile, ij);
         DisplacedSample s = displacedInLeaf(patch_, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
                                              faceLevel(tile.face, uv));

@@ -94,14 +94,17 @@ uint innerOf(TriangleTile tile, uint side, uvec2 n, uint i) {
 uint innerSegments(uint side, uvec2 n) { return (side % 2u == 0u ? n.x : n.y) - 2u; }
 
 void cellTriangle(TriangleTile tile, uvec2 n, uint t, uint triangle) {
-    uint i = (t / 2u) % (n.x - 2u) + 1u, j = (t / 2u) / (n.x - 2u) + 1u;
-    if (t % 2u == 0u)
-        storeTriangle(triangle, insideVertex(tile, n, i, j), insideVertex(tile, n, i + 1u, j), insideVertex(tile, n, i, j + 1u));
-    else
-        storeTriangle(triangle, insideVertex(tile, n, i + 1u, j), insideVertex(tile, n, i + 1u, j + 1u),
-                      insideVertex(tile, n, i, j + 1u));
+    uvec2 ji = divided(t / 2u, n.x - 2u);
+    uint a = insideVertex(tile, n, ji.y + 1u, ji.x + 1u), d = a + n.x - 1u;
+    bool isFirst = t % 2u == 0u;
+    storeTriangle(triangle, isFirst ? a : a + 1u, isFirst ? a + 1u : d + 1u, d);
 }
 #endif
+
+void cellTriangles(TriangleTile tile, uvec2 n, uint rings, uint count) {
+    for (uint k = gl_LocalInvocationID.x; k < kTrianglesPerTile && tile.firstInFace + k < count; k += gl_WorkGroupSize.x)
+        cellTriangle(tile, n, tile.firstInFace + k - rings, tile.firstTriangle + k);
+}
 
 void main() {
     uvec4 words = tileTexel(passFirst + gl_WorkGroupID.x);
@@ -121,25 +124,25 @@ void main() {
     uvec2 n = max(uvec2(max(r[0], r[2]), max(r[1], r[3])), 2u);
     uint cells = 2u * (n.x - 2u) * (n.y - 2u);
 #endif
-    uint count = sum + cells;
-    for (uint side = 0u; side < kSideCount; ++side) count += innerSegments(side, n);
-    if (largest == 1u) count = kSideCount - 2u;
+    uint rings = sum;
+    for (uint side = 0u; side < kSideCount; ++side) rings += innerSegments(side, n);
+    if (largest == 1u) rings = kSideCount - 2u;
+    if (kIsCommon) {
+        cellTriangles(tile, n, rings, rings + cells);
+        return;
+    }
 
-    for (uint k = gl_LocalInvocationID.x; k < kTrianglesPerTile && tile.firstInFace + k < count; k += gl_WorkGroupSize.x) {
+    for (uint k = gl_LocalInvocationID.x; k < kTrianglesPerTile && tile.firstInFace + k < rings; k += gl_WorkGroupSize.x) {
         uint t = tile.firstInFace + k, triangle = tile.firstTriangle + k;
         if (largest == 1u) {
             storeTriangle(triangle, runs.corners[0], runs.corners[t + 1u], runs.corners[t + 2u]);
             continue;
         }
         uint side = 0u;
-        for (; side < kSideCount; ++side) {
+        for (; side + 1u < kSideCount; ++side) {
             uint inRing = r[side] + innerSegments(side, n);
             if (t < inRing) break;
             t -= inRing;
-        }
-        if (side == kSideCount) {
-            cellTriangle(tile, n, t, triangle);
-            continue;
         }
 #ifdef RELIEF_TRIANGLES
         uint along = n.x;

@@ -8,12 +8,6 @@ namespace {
 
 using nlohmann::json;
 
-/// What is promised outside end caps, over the diagonal of the cage's bounding box.
-constexpr double kMostPointError = 1e-6;
-
-/// Rounding of a leaf patch's points grows with its magnification; up to the default isolation it is promised away.
-double mostTangentError(int isolation) { return std::ldexp(1e-5, std::max(isolation - SurfaceOptions().isolation, 0)); }
-
 void addBroken(std::vector<std::string>& broken, const PathReport& report) {
     const Watertightness& w = report.triangles;
     const auto add = [&](std::uint64_t count, const char* what) {
@@ -22,6 +16,8 @@ void addBroken(std::vector<std::string>& broken, const PathReport& report) {
     add(w.openEdges, "open edges");
     add(w.tJunctions, "T-junctions");
     add(w.notFinite, "vertices that are not finite");
+    if (!w.hasAllTriangles())
+        broken.push_back(fmt::format("{}: {} triangles instead of {}", report.path, w.triangles, *w.expectedTriangles));
     if (!w.isBoundaryWhole())
         broken.push_back(fmt::format("{}: {} segments on the cage's boundary instead of {}", report.path,
                                      w.boundarySegments, w.expectedBoundarySegments));
@@ -37,6 +33,7 @@ json ofPath(const PathReport& report) {
     return {{"path", report.path},
             {"watertight", w.isWatertight() && report.crackPixels.value_or(0) == 0},
             {"triangles", w.triangles},
+            {"expected_triangles", w.expectedTriangles ? json(*w.expectedTriangles) : json()},
             {"distinct_points", w.distinctPoints},
             {"degenerate_triangles", w.degenerateTriangles},
             {"open_edges", w.openEdges},
@@ -145,16 +142,24 @@ std::string seamWords(const SeamReport& seams, double reach) {
 
 } // namespace
 
+/// Rounding of a leaf patch's points grows with its magnification; up to the default isolation it is promised away.
+Promises promisesAt(int isolation) {
+    Promises promises;
+    promises.tangent = std::ldexp(promises.tangent, std::max(isolation - SurfaceOptions().isolation, 0));
+    return promises;
+}
+
 std::vector<std::string> Certificate::brokenPromises() const {
     std::vector<std::string> broken;
     for (const PathReport& report : paths) addBroken(broken, report);
+    const Promises promises = promisesAt(isolation);
     const auto check = [&](const ErrorSummary& error, double most, const char* what) {
         if (error.max > most)
             broken.push_back(fmt::format("{} are off by {:.2e} of the diagonal at {}, more than {:.0e}", what,
                                          error.max, words(error.worst), most));
     };
-    check(frames.regular.point, kMostPointError, "points");
-    check(frames.regular.tangent, mostTangentError(isolation), "tangents");
+    check(frames.regular.point, promises.point, "points");
+    check(frames.regular.tangent, promises.tangent, "tangents");
     return broken;
 }
 

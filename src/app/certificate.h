@@ -16,6 +16,12 @@ struct PathReport {
     std::optional<std::uint64_t> crackPixels; ///< over all views; only of surfaces that enclose a volume
 };
 
+/// What is promised of frames outside end caps, over the diagonal of the cage's bounding box.
+struct Promises {
+    double point = 1e-6, tangent = 1e-5;
+};
+Promises promisesAt(int isolation);
+
 struct Certificate {
     std::string cage, height, device; ///< height: "" without a map
     std::size_t faceCount = 0;

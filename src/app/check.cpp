@@ -1,8 +1,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "app/certificate.h"
 #include "app/commands.h"
+#include "app/heatmap.h"
 
 namespace relief::app {
 namespace {
@@ -55,7 +55,8 @@ private:
     Watertightness checkTriangles(const TriangleOptions& options) {
         const View view = viewOf(frameCamera(points_, {}, 1), kPictureSide);
         const EdgeRates rates = rater_.rates(model_, options, view);
-        return checkWatertight(captureTriangles(device_, model_, options, rates), boundarySegments(model_, rates));
+        return checkWatertight(captureTriangles(device_, model_, options, rates), boundarySegments(model_, rates),
+                               plannedTriangles(model_, options.path, rates));
     }
 
     std::uint64_t countCrackPixels(RenderOptions options, double shift) {
@@ -92,21 +93,26 @@ std::vector<SampleResult> sampleDevice(Device& device, const Model& model, std::
     return results;
 }
 
-/// Frames, curvature and seams from one query of the device.
-void checkPoints(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args,
-                 Certificate& certificate) {
+/// Frames, curvature and seams from one query of the device; returns the heat map that is asked for.
+std::optional<Picture> checkPoints(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args,
+                                   Certificate& certificate) {
     const SurfaceSamples samples = sampleEverywhere(loaded.surface, args.pointCount);
     const NormalKind normal = normalKind(args.triangles.normal);
     const std::vector<SampleResult> results = sampleDevice(device, model, samples.queries, normal);
     const ReferenceSurface reference(loaded.cage, loaded.options);
-    certificate.frames =
-        compareFrames({&reference, loaded.heightMap(), normal, certificate.diagonal}, samples.queries, results);
+    const std::vector<SampleError> errors =
+        sampleErrors({&reference, loaded.heightMap(), normal, certificate.diagonal}, samples.queries, results);
+    certificate.frames = summarizeErrors(samples.queries, errors);
     certificate.curvature = reportCurvature(samples, results);
     if (loaded.height) certificate.seams = reportSeams(loaded.surface, reference, *loaded.height);
+    if (args.heatmap.empty()) return {};
+    const Heat heat{samples, results, errors, promisesAt(certificate.isolation)};
+    return drawHeatmap(device, heatMesh(heat, loaded.surface.sideCount));
 }
 
 // --- the command
 
+/// Writes the heat map when all else has gone well.
 Certificate certify(const CheckArgs& args, const Loaded& loaded) {
     Device device({.name = args.device});
     const Model model(
@@ -121,7 +127,7 @@ Certificate certify(const CheckArgs& args, const Loaded& loaded) {
                             .isolation = loaded.options.isolation,
                             .diagonal = summarize(loaded.cage).bounds.diagonal(),
                             .reach = loaded.height ? loaded.height->reach() : 0};
-    checkPoints(device, model, loaded, args, certificate);
+    const std::optional<Picture> heatmap = checkPoints(device, model, loaded, args, certificate);
     progress.advance();
     // DESIGN: 4 % of a face opens any crack to some pixels.
     const double shift = 0.04 * std::sqrt(certificate.curvature.area / double(certificate.faceCount));
@@ -131,10 +137,12 @@ Certificate certify(const CheckArgs& args, const Loaded& loaded) {
         progress.advance();
     }
     checkValidation(device);
+    if (heatmap) writePicture(args.heatmap, *heatmap);
     return certificate;
 }
 
 int check(const CheckArgs& args) {
+    if (!args.heatmap.empty()) checkHeatmapPath(args.heatmap);
     const Loaded loaded = load(args.surface, args.output);
     if (loaded.dense)
         fail(Failure::usage, "{}: certificates are for subdivision surfaces; name its --scheme", args.surface.cage);
@@ -159,7 +167,8 @@ Run addCheck(CLI::App& app) {
     app.add_option("--points", args->pointCount, "points that are compared with the reference, about (200000)")
         ->check(CLI::Range(1, 100'000'000))
         ->option_text("N");
-    app.add_option("--heatmap", args->heatmap, "picture of where the errors are")->option_text("OUT.png");
+    app.add_option("--heatmap", args->heatmap, "picture of where errors (orange) and folds (blue) are: .png or .exr")
+        ->option_text("PICTURE");
     addDevice(app, args->device);
     addOutput(app, args->output);
     app.footer(
@@ -167,7 +176,8 @@ Run addCheck(CLI::App& app) {
         "are told, and are the map's.\n"
         "examples:\n"
         "  relief check cage.obj --height map.exr --scale 0.2\n"
-        "  relief check cage.obj --path dice --rate 16 --json");
+        "  relief check cage.obj --path dice --rate 16 --json\n"
+        "  relief check cage.obj --height map.exr --heatmap wrong.png");
     return [args] { return check(*args); };
 }
 

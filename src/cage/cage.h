@@ -94,6 +94,7 @@ struct DenseMesh {
     std::vector<vec3> positions, normals;
     std::vector<vec2> texCoords;        ///< empty, or one a vertex
     std::vector<std::uint32_t> indices; ///< three a triangle
+    std::vector<float> heights;         ///< empty, or one a vertex from -1 to 1: to be seen, never written to a file
 
     [[nodiscard]] std::uint64_t byteCount() const;
 };

@@ -2,6 +2,7 @@
 // sides of a seam agree? All of it on the host, from what a device has handed back.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "displacement/displacement.h"
@@ -23,7 +24,9 @@ inline constexpr std::size_t kMostDiagnosedEdges = 1u << 13, kMostKeptEdges = 1u
 
 /// What is left open when vertices at the same position are one.
 struct Watertightness {
-    std::uint64_t triangles = 0, distinctPoints = 0;
+    std::uint64_t triangles = 0; ///< three different vertices each, whether or not they lie apart
+    std::optional<std::uint64_t> expectedTriangles;
+    std::uint64_t distinctPoints = 0;
     std::uint64_t degenerateTriangles = 0; ///< fewer than 3 distinct points: samples may coincide; they have no edges
     std::uint64_t notFinite = 0;           ///< vertices; their triangles have no edges
     std::uint64_t openEdges = 0;           ///< edges of one triangle, inside the cage
@@ -38,12 +41,15 @@ struct Watertightness {
     vec3 worstPlace{0}; ///< of the largest gap
 
     [[nodiscard]] bool isBoundaryWhole() const;
+    [[nodiscard]] bool hasAllTriangles() const { return triangles == expectedTriangles.value_or(triangles); }
     [[nodiscard]] bool isWatertight() const;
 };
 
 /// Welds vertices of identical bits (-0 and +0 are one place, so they weld) and counts the triangles at each edge.
-/// Throws Failure::internal for arrays that do not fit each other.
-Watertightness checkWatertight(const CapturedMesh& mesh, std::uint64_t expectedBoundarySegments);
+/// A triangle with all its edges on the boundary leaves no open edge behind: only `expectedTriangles`
+/// (plannedTriangles) misses it. Throws Failure::internal for arrays that do not fit each other.
+Watertightness checkWatertight(const CapturedMesh& mesh, std::uint64_t expectedBoundarySegments,
+                               std::optional<std::uint64_t> expectedTriangles = {});
 
 // --- exact --------------------------------------------------------------------------------------------------------
 
@@ -87,7 +93,18 @@ struct FrameComparison {
     double diagonal = 1; ///< of the cage's bounding box
 };
 
+/// What is wrong at one point, in the units of RegionErrors; not finite where a value is not.
+struct SampleError {
+    double point = 0, tangent = 0, limitNormal = 0, normal = 0;
+    bool hasTangentPlane = true; ///< else the device has mended its tangents, and all but `point` are 0
+    bool isApproximate = false;  ///< in an end cap
+};
+
 /// `results[i]` is the device's answer to `queries[i]`.
+std::vector<SampleError> sampleErrors(const FrameComparison& with, std::span<const SampleQuery> queries,
+                                      std::span<const SampleResult> results);
+FrameErrors summarizeErrors(std::span<const SampleQuery> queries, std::span<const SampleError> errors);
+/// Both in one.
 FrameErrors compareFrames(const FrameComparison& with, std::span<const SampleQuery> queries,
                           std::span<const SampleResult> results);
 
@@ -114,6 +131,9 @@ struct CurvatureReport {
 
     [[nodiscard]] double foldedFraction() const { return area > 0 ? foldedArea / area : 0; }
 };
+
+/// The smaller of 1 + h kappa; not finite without a tangent plane.
+double foldFactor(const SampleResult& result);
 
 /// From the device's own frames at `samples`.
 CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results);

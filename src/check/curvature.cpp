@@ -43,6 +43,11 @@ Curvatures curvaturesOf(const LimitFrame& f, const NormalFrame& normal) {
     return {mean - spread, mean + spread};
 }
 
+double foldFactorOf(const LimitFrame& f, const NormalFrame& normal, double h) {
+    const Curvatures k = curvaturesOf(f, normal);
+    return 1 + std::min(h * k.lowest, h * k.highest);
+}
+
 /// Degrees between the full and the first-order normal of the displaced surface.
 double normalAngle(const LimitFrame& f, const NormalFrame& normal, const SampleResult& r) {
     const dvec2 dh = formulas::heightGradient(dvec2(r.gradient), dmat2(dvec2(r.stu), dvec2(r.stv)));
@@ -57,8 +62,7 @@ double normalAngle(const LimitFrame& f, const NormalFrame& normal, const SampleR
 void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& r, double weight) {
     const LimitFrame frame = frameOf(r);
     const NormalFrame normal(frame);
-    const Curvatures k = curvaturesOf(frame, normal);
-    const double factor = 1 + std::min(r.h * k.lowest, r.h * k.highest), angle = normalAngle(frame, normal, r);
+    const double factor = foldFactorOf(frame, normal, r.h), angle = normalAngle(frame, normal, r);
     if (!frame.hasTangentPlane() || !std::isfinite(factor + angle + normal.area)) {
         ++report.countWithoutCurvature;
         return;
@@ -75,6 +79,11 @@ void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& 
 } // namespace
 
 Curvatures principalCurvatures(const LimitFrame& frame) { return curvaturesOf(frame, NormalFrame(frame)); }
+
+double foldFactor(const SampleResult& result) {
+    const LimitFrame frame = frameOf(result);
+    return foldFactorOf(frame, NormalFrame(frame), result.h);
+}
 
 CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results) {
     CurvatureReport report;

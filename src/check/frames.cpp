@@ -35,34 +35,53 @@ const dvec3& normalOf(const DisplacedFrame& frame, NormalKind kind) {
 
 double farther(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
-void compare(const FrameComparison& with, const SampleQuery& query, const SampleResult& result, RegionErrors& errors) {
-    const SurfacePlace place{query.face, query.uv};
+SampleError errorOf(const FrameComparison& with, const SampleQuery& query, const SampleResult& result) {
     const DisplacedFrame frame = displacedFrame(*with.reference, with.height, int(query.face), dvec2(query.uv));
     const auto distance = [&](const dvec3& a, const vec3& b) { return glm::length(a - dvec3(b)) / with.diagonal; };
+    SampleError error{.point = distance(frame.limit.p, result.p),
+                      .hasTangentPlane = frame.limit.hasTangentPlane(),
+                      .isApproximate = with.reference->isApproximate(int(query.face), dvec2(query.uv))};
+    if (!error.hasTangentPlane) return error;
+    error.tangent = farther(distance(frame.limit.pu, result.pu), distance(frame.limit.pv, result.pv));
+    error.limitNormal = degreesBetween(frame.normal, dvec3(result.n));
+    error.normal = degreesBetween(normalOf(frame, with.normal), dvec3(result.m));
+    return error;
+}
+
+void add(RegionErrors& errors, const SampleError& error, const SurfacePlace& place) {
     ++errors.count;
-    add(errors.point, distance(frame.limit.p, result.p), place);
-    if (!frame.limit.hasTangentPlane()) { // the device has mended its tangents there
+    add(errors.point, error.point, place);
+    if (!error.hasTangentPlane) {
         ++errors.countWithoutNormal;
         return;
     }
-    add(errors.tangent, farther(distance(frame.limit.pu, result.pu), distance(frame.limit.pv, result.pv)), place);
-    add(errors.limitNormal, degreesBetween(frame.normal, dvec3(result.n)), place);
-    add(errors.normal, degreesBetween(normalOf(frame, with.normal), dvec3(result.m)), place);
+    add(errors.tangent, error.tangent, place);
+    add(errors.limitNormal, error.limitNormal, place);
+    add(errors.normal, error.normal, place);
 }
 
 } // namespace
 
+std::vector<SampleError> sampleErrors(const FrameComparison& with, std::span<const SampleQuery> queries,
+                                      std::span<const SampleResult> results) {
+    std::vector<SampleError> errors;
+    errors.reserve(queries.size());
+    for (std::size_t i = 0; i < queries.size(); ++i) errors.push_back(errorOf(with, queries[i], results[i]));
+    return errors;
+}
+
+FrameErrors summarizeErrors(std::span<const SampleQuery> queries, std::span<const SampleError> errors) {
+    FrameErrors summary;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        add(errors[i].isApproximate ? summary.endCaps : summary.regular, errors[i], {queries[i].face, queries[i].uv});
+    finish(summary.regular);
+    finish(summary.endCaps);
+    return summary;
+}
+
 FrameErrors compareFrames(const FrameComparison& with, std::span<const SampleQuery> queries,
                           std::span<const SampleResult> results) {
-    FrameErrors errors;
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-        const SampleQuery& query = queries[i];
-        const bool isApproximate = with.reference->isApproximate(int(query.face), dvec2(query.uv));
-        compare(with, query, results[i], isApproximate ? errors.endCaps : errors.regular);
-    }
-    finish(errors.regular);
-    finish(errors.endCaps);
-    return errors;
+    return summarizeErrors(queries, sampleErrors(with, queries, results));
 }
 
 } // namespace relief

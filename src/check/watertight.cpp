@@ -159,6 +159,14 @@ void checkArrays(const CapturedMesh& mesh) {
              (bad - mesh.indices.begin()) / 3, *bad, mesh.positions.size());
 }
 
+/// No path makes a triangle that has a vertex twice: what looks like one was never written.
+std::uint64_t trianglesOf(const CapturedMesh& mesh) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+        count += !Triangle{{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]}}.isDegenerate();
+    return count;
+}
+
 } // namespace
 
 bool Watertightness::isBoundaryWhole() const {
@@ -167,12 +175,15 @@ bool Watertightness::isBoundaryWhole() const {
 }
 
 bool Watertightness::isWatertight() const {
-    return openEdges == 0 && tJunctions == 0 && notFinite == 0 && isBoundaryWhole();
+    return openEdges == 0 && tJunctions == 0 && notFinite == 0 && isBoundaryWhole() && hasAllTriangles();
 }
 
-Watertightness checkWatertight(const CapturedMesh& mesh, std::uint64_t expectedBoundarySegments) {
+Watertightness checkWatertight(const CapturedMesh& mesh, std::uint64_t expectedBoundarySegments,
+                               std::optional<std::uint64_t> expectedTriangles) {
     checkArrays(mesh);
-    Watertightness result{.triangles = mesh.indices.size() / 3, .expectedBoundarySegments = expectedBoundarySegments};
+    Watertightness result{.triangles = trianglesOf(mesh),
+                          .expectedTriangles = expectedTriangles,
+                          .expectedBoundarySegments = expectedBoundarySegments};
     EdgeCounter(mesh, result).count();
     return result;
 }

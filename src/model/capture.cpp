@@ -20,8 +20,10 @@ struct Capture {
         if (bytes > device.traits().heapBytes / 2)
             fail(Failure::device, "{} captured vertices take {}; this device has {}: lower the rate", vertexCount,
                  humanBytes(bytes), humanBytes(device.traits().heapBytes));
-        return makeBuffer(
-            device, {.name = "captured vertices", .bytes = bytes, .usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
+        return makeBuffer(device,
+                          {.name = "captured vertices",
+                           .bytes = bytes,
+                           .usage = usage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
     }
 
     /// A pipeline without pictures: vertices are captured, triangles are not drawn.
@@ -51,6 +53,8 @@ struct Capture {
         bindings[kBindDrawFaces].texels = drawFaces.view.get();
         const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
         device.run([&](VkCommandBuffer commands) {
+            constexpr std::uint32_t notANumber = 0xffffffffu; // what is never written must not look like a point
+            vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, notANumber);
             writeScene(commands, inputs.scene(), scene);
             VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
             info.renderArea = {{0, 0}, {1, 1}};

@@ -24,8 +24,9 @@ std::uint32_t firstIn(std::uint32_t cell, std::uint32_t depth, std::uint32_t n) 
 /// What one dicing dispatches.
 struct Work {
     std::vector<std::uint32_t> runFirsts; ///< one more at the end: where the insides begin
-    std::vector<InsideTile> insides;
-    std::vector<TriangleTile> triangles;
+    std::vector<InsideTile> insides;      ///< those of regular patches first
+    std::size_t regularCount = 0;
+    std::vector<TriangleTile> rings, cells; ///< triangles at edges, triangles between inner samples
     std::vector<std::uint32_t> firstTriangles, faceRates;
     std::uint64_t vertexCount = 0, triangleCount = 0, sampleCount = 0;
     std::uint32_t maxRate = 0;
@@ -44,6 +45,9 @@ public:
             if (model_.faces()[face].root != kNoPatch) addFace(face);
         }
         work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
+        const auto others =
+            std::ranges::stable_partition(work_.insides, [&](const InsideTile& tile) { return isRegular(tile); });
+        work_.regularCount = work_.insides.size() - others.size();
         return std::move(work_);
     }
 
@@ -65,9 +69,13 @@ private:
         work_.maxRate = std::max(work_.maxRate, work_.faceRates.back());
         const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount())});
         const auto firstVertex = std::uint32_t(work_.vertexCount);
-        for (std::uint64_t first = 0; first < triangles; first += kTrianglesPerTile)
-            work_.triangles.push_back(
-                {face, std::uint32_t(first), std::uint32_t(work_.triangleCount + first), firstVertex});
+        const std::uint64_t atEdges = triangles - cellTriangles(f);
+        const auto addTiles = [&](std::vector<TriangleTile>& tiles, std::uint64_t first, std::uint64_t end) {
+            for (; first < end; first += kTrianglesPerTile)
+                tiles.push_back({face, std::uint32_t(first), std::uint32_t(work_.triangleCount + first), firstVertex});
+        };
+        addTiles(work_.rings, 0, atEdges);
+        addTiles(work_.cells, atEdges, triangles);
         work_.triangleCount += triangles;
         if (std::max(f.u, f.v) == 1) return;
         if (model_.isTriangles())
@@ -75,6 +83,12 @@ private:
         else
             addQuadInside(face, std::max(f.u, 2u), std::max(f.v, 2u));
         work_.sampleCount += work_.vertexCount - firstVertex;
+    }
+
+    /// The triangles of a face that touch no edge.
+    [[nodiscard]] std::uint64_t cellTriangles(const FaceSegments& f) const {
+        const std::uint64_t m = std::max(f.u, 2u) - 2, n = std::max(f.v, 2u) - 2, inner = std::max(f.u, 3u) - 3;
+        return model_.isTriangles() ? inner * inner : 2 * m * n;
     }
 
     void addTriangleInside(std::uint32_t face, std::uint32_t n) {
@@ -100,6 +114,10 @@ private:
                                          std::uint32_t(work_.vertexCount)});
         }
         work_.vertexCount += std::uint64_t(m - 1) * (n - 1);
+    }
+
+    [[nodiscard]] bool isRegular(const InsideTile& tile) const {
+        return !model_.isTriangles() && model_.isRegular(tile.patchIndex);
     }
 
     /// The first inner sample at or past cell / 2^depth, at most n.
@@ -151,6 +169,17 @@ struct Dicer::Parts {
 
     /// Makes the buffers of the mesh and writes them.
     DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options);
+
+    struct Pass {
+        const char* file;
+        std::uint64_t groups;
+        PushConstants constants;
+        bool isCommon = false;
+        const Pipeline* pipeline = nullptr;
+    };
+    /// Returns the milliseconds that they take.
+    double run(std::span<const Pass> passes, const BindingSet& set, const Scene& scene);
+
     Device& device;
     GeometryInputs inputs;
     ComputeStages stages;
@@ -191,7 +220,8 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
 
     std::vector<std::uint32_t> tiles;
     appendRecords<kInsideTileTexels>(tiles, work.insides);
-    const std::uint32_t firstTriangleTile = appendRecords<kTriangleTileTexels>(tiles, work.triangles);
+    const std::uint32_t firstRing = appendRecords<kTriangleTileTexels>(tiles, work.rings);
+    const std::uint32_t firstCell = appendRecords<kTriangleTileTexels>(tiles, work.cells);
     const RateTexels rateTexels = uploadRates(device, model, rates);
     const TexelBuffer tileTexels =
         uploadTexels(device, {.name = "dice tiles"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(tiles)));
@@ -215,31 +245,45 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     constants.wantsTexCoords = options.wantsTexCoords;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
-    struct Pass {
-        const char* file;
-        std::uint64_t groups;
-        PushConstants constants;
-    };
-    const std::uint32_t edgeVertices = work.runFirsts.back();
-    const Pass passes[] = {{"dice_insides.comp", work.insides.size(), {}},
-                           {"dice_edges.comp",
-                            (edgeVertices + constants.groupSize - 1) / constants.groupSize,
-                            {.passNumber = edgeVertices}},
-                           {"dice_triangles.comp", work.triangles.size(), {.passFirst = firstTriangleTile}}};
-    const BindingSet set =
-        makeBindingSet(device, stages.pipeline(passes[0].file, model, constants), GeometryInputs::layout(), bindings);
+    const std::uint32_t edgeVertices = work.runFirsts[table.firstSmoothRun];
+    const auto regularCount = std::uint32_t(work.regularCount);
+    Pass passes[] = {
+        {"dice_insides.comp", regularCount, {}, true},
+        {"dice_insides.comp", work.insides.size() - regularCount, {.passFirst = regularCount}},
+        {"dice_edges.comp",
+         (edgeVertices + constants.groupSize - 1) / constants.groupSize,
+         {.passNumber = edgeVertices}},
+        {"dice_smooth_edges.comp", table.runs.size() - table.firstSmoothRun, {.passFirst = table.firstSmoothRun}},
+        {"dice_triangles.comp", work.cells.size(), {.passFirst = firstCell}, true},
+        {"dice_triangles.comp", work.rings.size(), {.passFirst = firstRing}}};
+    for (Pass& pass : passes) {
+        if (pass.groups == 0) continue; // what is not needed is not compiled
+        constants.isCommon = pass.isCommon;
+        pass.pipeline = &stages.pipeline(pass.file, model, constants);
+    }
+    const std::span<const Pass> all(passes);
+    const BindingSet set = makeBindingSet(device, *all.back().pipeline, GeometryInputs::layout(), bindings);
+    const std::size_t together = all.size() - (options.timesVertices ? 2 : 0);
+    mesh.milliseconds = run(all.first(together), set, scene);
+    if (!options.timesVertices) return mesh;
+    mesh.vertexMilliseconds = mesh.milliseconds;
+    mesh.milliseconds += run(all.subspan(together), set, scene);
+    return mesh;
+}
+
+double Dicer::Parts::run(std::span<const Pass> passes, const BindingSet& set, const Scene& scene) {
     const auto start = std::chrono::steady_clock::now();
     device.run([&](VkCommandBuffer commands) {
         timer.reset(commands);
         writeScene(commands, inputs.scene(), scene);
         timer.stamp(commands);
         for (const Pass& pass : passes) {
-            const Pipeline& pipeline = stages.pipeline(pass.file, model, constants);
-            bind(commands, pipeline, set);
+            if (pass.groups == 0) continue;
+            bind(commands, *pass.pipeline, set);
             for (std::uint64_t first = 0; first < pass.groups; first += kGroupsAtOnce) {
                 PushConstants part = pass.constants;
                 part.passFirst += std::uint32_t(first);
-                pushConstants(commands, pipeline, part);
+                pushConstants(commands, *pass.pipeline, part);
                 vkCmdDispatch(commands, std::uint32_t(std::min<std::uint64_t>(kGroupsAtOnce, pass.groups - first)), 1,
                               1);
             }
@@ -251,10 +295,8 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     // instead.
     const std::vector<double> times = timer.intervals();
     if (device.traits().isCpu)
-        mesh.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    else if (!times.empty())
-        mesh.milliseconds = times[0];
-    return mesh;
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return times.empty() ? 0 : times[0];
 }
 
 DicedMesh Dicer::dice(const Model& model, const EdgeRates& rates, const DiceOptions& options) {

@@ -97,12 +97,28 @@ private:
 
     void addEdgeRuns() {
         for (std::uint32_t edge = 0; edge < uses_.size(); ++edge)
-            for (std::size_t i = 0; i < uses_[edge].size(); ++i) {
-                const EdgeUse& use = uses_[edge][i];
-                if (i == 0 || isParted(edge)) table_.runs.push_back({use.touch, edge, 0});
-                table_.faceRuns[use.touch.face].sides[2 * use.touch.side + use.half] =
-                    std::uint32_t(table_.runs.size() - 1);
-            }
+            if (!isSmooth(edge)) addRunsOf(edge);
+        table_.firstSmoothRun = std::uint32_t(table_.runs.size());
+        for (std::uint32_t edge = 0; edge < uses_.size(); ++edge)
+            if (isSmooth(edge)) addRunsOf(edge);
+    }
+
+    /// One run of vertices, all in one patch of the owner, which alone decides where they lie.
+    [[nodiscard]] bool isSmooth(std::uint32_t edge) const {
+        const Edge& record = model_.edges()[edge];
+        if (model_.isTriangles() || record.touchCount > 0 || uses_[edge].empty() || isParted(edge)) return false;
+        const std::uint32_t root = model_.faces()[record.owner.face].root;
+        return uses_[edge].front().touch.face == record.owner.face && root != kNoPatch && (root & kLeafBit) != 0 &&
+               model_.isRegular(root & ~kLeafBit);
+    }
+
+    void addRunsOf(std::uint32_t edge) {
+        for (std::size_t i = 0; i < uses_[edge].size(); ++i) {
+            const EdgeUse& use = uses_[edge][i];
+            if (i == 0 || isParted(edge)) table_.runs.push_back({use.touch, edge, 0});
+            table_.faceRuns[use.touch.face].sides[2 * use.touch.side + use.half] =
+                std::uint32_t(table_.runs.size() - 1);
+        }
     }
 
     const Model& model_;

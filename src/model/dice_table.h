@@ -9,8 +9,9 @@ namespace relief {
 struct DiceTable {
     std::vector<VertexRun> runs; ///< those of corners first
     std::uint32_t cornerRunCount = 0;
-    std::vector<FaceRuns> faceRuns; ///< one a face
-    TexelBuffer texels;             ///< runs, then those around faces
+    std::uint32_t firstSmoothRun = 0; ///< from here on: of smooth edges whose owner is one bicubic patch
+    std::vector<FaceRuns> faceRuns;   ///< one a face
+    TexelBuffer texels;               ///< runs, then those around faces
     std::uint32_t firstFaceRuns = 0;
 };
 

@@ -137,6 +137,8 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     edges_ = s.edges;
     tree_ = s.tree;
     for (const Corner& corner : s.corners) cornerFlags_.push_back(corner.flags);
+    for (const Patch& patch : s.patches)
+        patchIsRegular_.push_back(patch.type == kPatchRegular && (!s.hasTexCoords() || patch.texType == kPatchRegular));
     sideCount_ = s.sideCount;
     hasTexCoords_ = s.hasTexCoords();
     edgeIsHalf_.assign(s.edges.size(), false);
@@ -153,7 +155,7 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
 void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     std::vector<vec4> vertices;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        vertices.emplace_back(mesh.positions[i], 0.0f); // no height
+        vertices.emplace_back(mesh.positions[i], mesh.heights.empty() ? 0.0f : mesh.heights[i]);
         vertices.emplace_back(mesh.normals[i], 0.0f);
     }
     mesh_ = uploadTexels(device, {.name = "mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(vertices)));
@@ -167,6 +169,7 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     indexCount_ = std::uint32_t(mesh.indices.size());
     vertexCount_ = std::uint32_t(mesh.positions.size());
     hasTexCoords_ = !mesh.texCoords.empty();
+    heightReach_ = 1;
     isDense_ = true;
 }
 

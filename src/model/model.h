@@ -59,6 +59,8 @@ public:
     /// What edges are on the height map; measured when first asked for (empty then).
     [[nodiscard]] std::vector<EdgeOnMap>& edgesOnMap() const { return edgesOnMap_; }
     [[nodiscard]] const HeightPyramid& heightPyramid() const { return *heightPyramid_; }
+    /// Whether the points of a leaf patch and its texture coordinates are both bicubic.
+    [[nodiscard]] bool isRegular(std::uint32_t patch) const { return patchIsRegular_[patch]; }
     /// Which vertices a diced mesh has; made when first asked for.
     [[nodiscard]] const DiceTable& diceTable(Device& device) const;
     [[nodiscard]] std::size_t cornerCount() const { return cornerFlags_.size(); }
@@ -92,7 +94,7 @@ private:
     std::unique_ptr<HeightPyramid> heightPyramid_;
     std::vector<Bounds> faceBounds_;
     std::vector<std::uint32_t> mapFirsts_; ///< where the texels of each level begin
-    std::vector<bool> edgeIsHalf_;
+    std::vector<bool> edgeIsHalf_, patchIsRegular_;
     std::vector<std::uint32_t> cornerFlags_;
     std::uint32_t indexCount_ = 0, vertexCount_ = 0;
     int sideCount_ = 4;
@@ -208,13 +210,15 @@ struct DicedMesh {
     std::uint64_t sampleCount = 0;             ///< distinct samples
     std::uint32_t vertexCount = 0, triangleCount = 0, maxRate = 0;
     std::uint64_t byteCount = 0;
-    double milliseconds = 0; ///< on the device; 0 where it cannot time
+    double milliseconds = 0;       ///< on the device; 0 where it cannot time
+    double vertexMilliseconds = 0; ///< without the triangles; only where DiceOptions asks for it
 };
 
 struct DiceOptions {
     NormalKind normal = NormalKind::full;
     bool wantsTexCoords = false;
     std::optional<std::uint64_t> memory;
+    bool timesVertices = false; ///< apart from the triangles: one more wait for the device
 };
 
 class Dicer {
@@ -246,6 +250,9 @@ struct CapturedMesh {
 /// dice: read back.
 CapturedMesh captureTriangles(Device& device, const Model& model, const TriangleOptions& options,
                               const EdgeRates& rates);
+
+/// How many triangles captureTriangles has to find.
+std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates);
 
 /// Segments of all edges of the cage that have one drawn face.
 std::uint64_t boundarySegments(const Model& model, const EdgeRates& rates);

@@ -132,6 +132,19 @@ DrawPlan planGrids(const Model& model, const EdgeRates& rates, std::span<const c
     return plan;
 }
 
+std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates) {
+    std::uint64_t count = 0;
+    for (std::uint32_t f = 0; f < model.faces().size(); ++f) {
+        if (model.faces()[f].root == kNoPatch) continue;
+        const FaceSegments face = faceSegments(model, rates, f);
+        const std::span<const std::uint32_t> sides(face.sides, std::size_t(model.sideCount()));
+        count += path == Path::grid   ? std::uint64_t(face.u) * face.v * (model.isTriangles() ? 1 : 2)
+                 : path == Path::dice ? dicedTriangles(sides)
+                                      : tessellatedTriangles(sides);
+    }
+    return count;
+}
+
 std::vector<std::uint32_t> gridIndices(std::uint32_t columns, std::uint32_t rows) {
     std::vector<std::uint32_t> indices;
     indices.reserve(std::size_t(columns) * rows * 6);

@@ -20,7 +20,7 @@ struct PushConstants {
 /// Set 0 of every pass (kBind...).
 PipelineLayoutDesc passLayout();
 
-/// Specialization constants 0..8 in the order of the shaders' constant_id.
+/// Specialization constants 0..9 in the order of the shaders' constant_id.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
@@ -29,10 +29,11 @@ struct ShaderConstants {
     bool hasAlbedoMap = false;
     std::uint32_t groupSize = 64; ///< dicing: invocations of a workgroup
     bool hasMips = false;
+    bool isCommon = false; ///< dicing: insides in bicubic patches, triangles between inner samples
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
-        return {isGenericBasis, hasTexCoords, hasHeight, std::uint32_t(normal), wantsTexCoords, show,
-                hasAlbedoMap,   groupSize,    hasMips};
+        return {isGenericBasis, hasTexCoords, hasHeight, std::uint32_t(normal), wantsTexCoords, show, hasAlbedoMap,
+                groupSize,      hasMips,      isCommon};
     }
 };
 

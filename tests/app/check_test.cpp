@@ -1,4 +1,5 @@
 // relief check: the certificate as words and as JSON, and what breaks it.
+#include "cage/cage.h"
 #include "program.h"
 
 namespace relief::test {
@@ -21,6 +22,7 @@ TEST(Check, certifiesAllPathsOfACageAndItsMap) {
         const nlohmann::json& path = pathOf(c, name);
         EXPECT_TRUE(path.at("watertight"));
         EXPECT_EQ(path.at("triangles"), c.at("faces").get<int>() * 50);
+        EXPECT_EQ(path.at("expected_triangles"), path.at("triangles"));
         EXPECT_EQ(path.at("distinct_points"), c.at("faces").get<int>() * 25);
         EXPECT_EQ(path.at("open_edges"), 0);
         EXPECT_EQ(path.at("crack_pixels"), 0);
@@ -52,6 +54,76 @@ TEST(Check, tellsFoldsWithoutCallingThemBroken) {
     EXPECT_EQ(c.at("paths").size(), 1u);
 }
 
+/// Where floats are a ten-thousandth of the cage apart, no frame can be exact.
+void writeFarTorus(const std::string& path) {
+    Cage cage = readCage(cagePath("torus"));
+    for (vec3& p : cage.positions) p.x += 2000;
+    writeObj(path, cage);
+}
+
+TEST(Check, endsWithSixWhenAPromiseIsBroken) {
+    const TemporaryFolder folder;
+    writeFarTorus(folder / "far.obj");
+    const Outcome outcome = relief({"check", folder / "far.obj"}, "--rate 2 --path grid --points 2000");
+    EXPECT_EQ(outcome.exitCode, int(Failure::check)) << outcome.out;
+    EXPECT_TRUE(contains(outcome.err, "far.obj: ")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "points are off by")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.out, "\nexact")) << "the certificate is printed all the same: " << outcome.out;
+}
+
+/// Pixels of a picture of bytes that are more blue than red, or the other way round, by more than noise.
+struct Tints {
+    int blue = 0, orange = 0;
+};
+
+Tints tintsOf(const std::string& path) {
+    const Image image = readImage(path);
+    Tints tints;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const float* pixel = image.at(x, y);
+            tints.blue += pixel[2] > pixel[0] + 0.3f;
+            tints.orange += pixel[0] > pixel[2] + 0.3f;
+        }
+    return tints;
+}
+
+TEST(Check, drawsFoldsBlueAndErrorsOrange) {
+    const TemporaryFolder folder;
+    writeImage(folder / "flat.exr", {4, 4, 1, std::vector<float>(16, 1)}, SampleType::real);
+    const Words words{"check", cagePath("torus"), "--height", folder / "flat.exr", "--heatmap", folder / "heat.png"};
+    EXPECT_EQ(relief(words, "--scale -0.6 --rate 1 --path grid --points 5000").exitCode, 0);
+    const Tints folded = tintsOf(folder / "heat.png");
+    EXPECT_GT(folded.blue, 20'000);
+    EXPECT_EQ(relief(words, "--scale 0.01 --rate 1 --path grid --points 5000").exitCode, 0);
+    EXPECT_EQ(tintsOf(folder / "heat.png").blue, 0);
+    EXPECT_EQ(readImage(folder / "heat.png").width, 1024);
+}
+
+TEST(Check, drawsWhatBreaksAPromise) {
+    const TemporaryFolder folder;
+    writeFarTorus(folder / "far.obj");
+    const Outcome outcome = relief({"check", folder / "far.obj", "--heatmap", folder / "heat.png"},
+                                   "--rate 1 --path grid --points 2000 -q");
+    EXPECT_EQ(outcome.exitCode, int(Failure::check)) << outcome.err;
+    EXPECT_GT(tintsOf(folder / "heat.png").orange, 100'000);
+}
+
+TEST(Check, drawsTriangularFaces) {
+    const TemporaryFolder folder;
+    putFile(folder / "octahedron.obj",
+            "v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\n"
+            "f 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n");
+    const Outcome outcome = relief({"check", folder / "octahedron.obj", "--heatmap", folder / "heat.exr"},
+                                   "--scheme loop --rate 1 --path grid --points 800 -q");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const Image image = readImage(folder / "heat.exr");
+    int covered = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) covered += image.at(x, y)[3] == 1;
+    EXPECT_GT(covered, 300'000);
+}
+
 TEST(Check, readsAsText) {
     const Outcome outcome = relief({"check", cagePath("lantern")}, "--rate 3 --path dice --points 5000");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
@@ -77,6 +149,8 @@ TEST(Check, refusesWhatItCannotCertify) {
     putFile(folder / "triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     expectRefused(relief({"check", folder / "triangle.obj"}), Failure::usage, {"triangle.obj", "--scheme"});
     expectRefused(relief({"check", cagePath("cube"), "--path", "other"}), Failure::usage, {"other"});
+    expectRefused(relief({"check", folder / "missing.obj", "--heatmap", "heat.jpg"}), Failure::usage,
+                  {"heat.jpg", ".png or .exr"});
     expectRefused(relief({"check", cagePath("cube"), "--points", "0"}), Failure::usage, {"--points"});
     expectRefused(relief({"check", cagePath("cube"), "--rate", "0"}), Failure::usage, {"1..64"});
 }

@@ -158,6 +158,27 @@ TEST(Watertight, knowsTheBoundaryOfTheCage) {
     EXPECT_TRUE(checkWatertight(twice, 16).isWatertight());
 }
 
+// At a corner of one face a triangle has two sides on the boundary and the third between two of its vertices: with a
+// hidden segment elsewhere, as where boundaries touch, no count of edges tells that it has gone.
+TEST(Watertight, missesTrianglesThatAreNotThere) {
+    CapturedMesh mesh = openGrid(3, 3);
+    EXPECT_TRUE(checkWatertight(mesh, 12, 18).isWatertight());
+    mesh.indices.erase(mesh.indices.begin(), mesh.indices.begin() + 3);
+    mesh.positions[14] = mesh.positions[15]; // a segment of the boundary collapses
+    const Watertightness w = checkWatertight(mesh, 12);
+    EXPECT_TRUE(w.isWatertight()) << "as far as edges tell: " << w.boundarySegments << " of 12";
+    EXPECT_FALSE(checkWatertight(mesh, 12, 18).hasAllTriangles());
+    EXPECT_FALSE(checkWatertight(mesh, 12, 18).isWatertight());
+}
+
+TEST(Watertight, countsTrianglesThatWereNeverWrittenAsMissing) {
+    CapturedMesh mesh = closedBox(2);
+    mesh.indices.insert(mesh.indices.end(), {0, 0, 0});
+    EXPECT_EQ(checkWatertight(mesh, 0, 49).triangles, 48u);
+    EXPECT_FALSE(checkWatertight(mesh, 0, 49).isWatertight());
+    EXPECT_TRUE(checkWatertight(mesh, 0, 48).isWatertight());
+}
+
 TEST(Watertight, missesBoundarySegmentsThatAreNotThere) {
     const CapturedMesh nothing;
     EXPECT_FALSE(checkWatertight(nothing, 4).isWatertight());

@@ -1,0 +1,92 @@
+#include "app/heatmap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/stages.h"
+
+namespace relief::app {
+namespace {
+
+constexpr int kPictureSide = 1024;
+constexpr double kDecades = 3; // of errors, from white to what is promised
+
+/// A value that is not finite is as wrong as can be.
+double errorHeat(const SampleError& error, const Promises& promises) {
+    const double share = std::max(error.point / promises.point, error.tangent / promises.tangent);
+    if (!std::isfinite(error.point + error.tangent)) return 1;
+    return std::clamp(1 + std::log10(share) / kDecades, 0.0, 1.0);
+}
+
+double foldHeat(double factor) { return std::isfinite(factor) ? std::clamp(1 - 2 * factor, 0.0, 1.0) : 0; }
+
+/// Samples lie in rows of as many as the first face has on its first side.
+std::uint32_t pointsASide(const SurfaceSamples& samples) {
+    std::uint32_t count = 0;
+    while (count < samples.queries.size() && samples.queries[count].face == samples.queries[0].face &&
+           samples.queries[count].uv.y == 0)
+        ++count;
+    return count;
+}
+
+/// Triangles between the samples of one triangular face, whose rows become shorter.
+std::vector<std::uint32_t> shortRowIndices(std::uint32_t n) {
+    std::vector<std::uint32_t> indices = triangleGridIndices(n);
+    for (std::uint32_t& index : indices) {
+        const std::uint32_t i = index % (n + 1), j = index / (n + 1);
+        index = j * (n + 1) - j * (j - 1) / 2 + i;
+    }
+    return indices;
+}
+
+bool isFinite(const vec3& p) { return std::isfinite(p.x + p.y + p.z); }
+
+} // namespace
+
+void checkHeatmapPath(const std::string& path) {
+    if (!path.ends_with(".png") && !path.ends_with(".exr"))
+        fail(Failure::usage, "{}: heat maps are written as .png or .exr", path);
+}
+
+std::vector<float> heatValues(const Heat& heat) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < heat.results.size(); ++i) {
+        const double error = errorHeat(heat.errors[i], heat.promises);
+        const double fold = heat.samples.hasCurvature[i] ? foldHeat(foldFactor(heat.results[i])) : 0;
+        values.push_back(float(fold > 0 ? -fold : error));
+    }
+    return values;
+}
+
+DenseMesh heatMesh(const Heat& heat, int sideCount) {
+    const std::uint32_t side = pointsASide(heat.samples);
+    const std::vector<std::uint32_t> face =
+        sideCount == 3 ? shortRowIndices(side - 1) : gridIndices(side - 1, side - 1);
+    const std::uint32_t pointsAFace = sideCount == 3 ? side * (side + 1) / 2 : side * side;
+    DenseMesh mesh;
+    for (const SampleResult& result : heat.results) {
+        mesh.positions.push_back(result.q);
+        mesh.normals.push_back(result.m);
+    }
+    for (std::uint32_t first = 0; first < heat.results.size(); first += pointsAFace)
+        for (const std::uint32_t index : face) mesh.indices.push_back(first + index);
+    mesh.heights = heatValues(heat);
+    return mesh;
+}
+
+Picture drawHeatmap(Device& device, const DenseMesh& mesh) {
+    std::vector<dvec3> points;
+    for (const vec3& p : mesh.positions)
+        if (isFinite(p)) points.emplace_back(p);
+    RenderOptions options;
+    options.path = Path::grid;
+    options.show = Show::height;
+    options.camera = frameCamera(points, {}, 1);
+    options.lighting.castsShadows = false;
+    for (const dvec3& p : points) options.bounds.add(p);
+    const Model model(device, {.dense = &mesh});
+    Renderer renderer(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1});
+    return renderer.render(model, options);
+}
+
+} // namespace relief::app
