@@ -41,6 +41,9 @@ struct Pen {
         return 9.0f * slot - vec3(13);
     }
 
+    /// Few cages for the price of many: visited less often.
+    [[nodiscard]] bool isSmall() const { return cages.size() < 4; }
+
     [[nodiscard]] Cage joined() const;
 
     [[nodiscard]] std::vector<vec3> posedTogether(Pose pose) const {

@@ -41,9 +41,6 @@ void expectWatertight(const Load& load, const EdgeRates& rates, Path path, Tally
     ++tally.captures;
 }
 
-/// A pen whose models are worth a third of the captures: few cages for the price of many.
-bool isSmall(const Pen& pen) { return pen.cages.size() < 4; }
-
 /// Poses a pen, loads it with every height and captures it on every path; kinds of rates take turns.
 void visit(const Pen& pen, std::uint32_t& turn, Tally& tally) {
     static const std::vector<NamedMap> maps = zooMaps();
@@ -52,7 +49,7 @@ void visit(const Pen& pen, std::uint32_t& turn, Tally& tally) {
     for (const Pose pose : kPoses) {
         const std::vector<vec3> positions = pen.posedTogether(pose);
         for (std::size_t map = 0; map < maps.size(); ++map) {
-            if (isSmall(pen) && (std::size_t(pose) + map) % 3 != 0) continue;
+            if (pen.isSmall() && (std::size_t(pose) + map) % 3 != 0) continue;
             const Model model(device(), {.surface = &surface, .cagePositions = positions, .height = maps[map].get()});
             const auto kind = RateKind(++turn % kRateKinds);
             const EdgeRates rates = zooRates(model, kind, turn);
