@@ -26,24 +26,6 @@ struct Exported {
     double loadSeconds = 0, surfaceSeconds = 0, rateMs = 0, diceMs = 0, writeSeconds = 0;
 };
 
-DenseMesh readBack(Device& device, const DicedMesh& diced, bool hasTexCoords) {
-    DenseMesh mesh;
-    std::vector<vec4> texels(2 * std::size_t(diced.vertexCount)); // position and height, normal
-    downloadBytes(device, diced.vertices.buffer, std::as_writable_bytes(std::span(texels)));
-    mesh.positions.reserve(diced.vertexCount);
-    mesh.normals.reserve(diced.vertexCount);
-    for (std::size_t i = 0; i < texels.size(); i += 2) {
-        mesh.positions.emplace_back(texels[i]);
-        mesh.normals.emplace_back(texels[i + 1]);
-    }
-    mesh.indices.resize(3 * std::size_t(diced.triangleCount));
-    downloadBytes(device, diced.indices, std::as_writable_bytes(std::span(mesh.indices)));
-    if (!hasTexCoords) return mesh;
-    mesh.texCoords.resize(diced.vertexCount);
-    downloadBytes(device, diced.texCoords.buffer, std::as_writable_bytes(std::span(mesh.texCoords)));
-    return mesh;
-}
-
 EdgeRates ratesOf(Device& device, const Model& model, const Loaded& loaded, const ExportArgs& args, double& rateMs) {
     View view;
     if (!args.triangles.rate) view = viewOf(cameraOf(args.camera, outlineOf(loaded)), args.camera.size[1]);
@@ -72,7 +54,7 @@ Exported dice(const ExportArgs& args) {
         {.normal = normalKind(args.triangles.normal), .wantsTexCoords = hasTexCoords, .memory = args.triangles.memory});
     progress.advance();
     checkMeshSize(args.target, diced.vertexCount, diced.triangleCount, hasTexCoords);
-    exported.mesh = readBack(device, diced, hasTexCoords);
+    exported.mesh = readBack(device, diced);
     exported.sampleCount = diced.sampleCount;
     exported.diceMs = diced.milliseconds;
     progress.advance();

@@ -9,7 +9,7 @@ namespace relief::app {
 namespace {
 
 constexpr int kPictureSide = 1024;
-constexpr double kDecades = 3; // of errors, from white to what is promised
+constexpr double kDecades = 1; // of errors, from white to what is promised: rounding alone stays white
 
 /// A value that is not finite is as wrong as can be.
 double errorHeat(const SampleError& error, const Promises& promises) {

@@ -17,7 +17,7 @@ struct Heat {
     Promises promises;
 };
 
-/// One value a sample: up to +1 errors, on a logarithmic scale from 0 at a thousandth of what is promised to 1 at the
+/// One value a sample: up to +1 errors, on a logarithmic scale from 0 at a tenth of what is promised to 1 at the
 /// promise itself; down to -1 folds, from 0 where 1 + h kappa is 0.5 to -1 where it is 0 or less. Folds go first: the
 /// rounding of floats is some errors everywhere.
 std::vector<float> heatValues(const Heat& heat);

@@ -217,6 +217,7 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     mesh.triangleCount = std::uint32_t(work.triangleCount);
     mesh.maxRate = work.maxRate;
     mesh.byteCount = bytes;
+    mesh.hasTexCoords = options.wantsTexCoords;
 
     std::vector<std::uint32_t> tiles;
     appendRecords<kInsideTileTexels>(tiles, work.insides);
@@ -303,23 +304,26 @@ DicedMesh Dicer::dice(const Model& model, const EdgeRates& rates, const DiceOpti
     return parts_->dice(model, rates, options);
 }
 
+DenseMesh readBack(Device& device, const DicedMesh& diced) {
+    DenseMesh mesh;
+    std::vector<vec4> texels(2 * std::size_t(diced.vertexCount));
+    downloadBytes(device, diced.vertices.buffer, std::as_writable_bytes(std::span(texels)));
+    mesh.positions.reserve(diced.vertexCount);
+    mesh.normals.reserve(diced.vertexCount);
+    for (std::size_t i = 0; i < texels.size(); i += 2) {
+        mesh.positions.emplace_back(texels[i]);
+        mesh.normals.emplace_back(texels[i + 1]);
+    }
+    mesh.indices.resize(3 * std::size_t(diced.triangleCount));
+    downloadBytes(device, diced.indices, std::as_writable_bytes(std::span(mesh.indices)));
+    if (!diced.hasTexCoords) return mesh;
+    mesh.texCoords.resize(diced.vertexCount);
+    downloadBytes(device, diced.texCoords.buffer, std::as_writable_bytes(std::span(mesh.texCoords)));
+    return mesh;
+}
+
 DenseMesh Dicer::diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
-    const DicedMesh mesh = dice(model, rates, options);
-    Device& device = parts_->device;
-    DenseMesh host;
-    std::vector<vec4> vertices(std::size_t(mesh.vertexCount) * 2);
-    downloadBytes(device, mesh.vertices.buffer, std::as_writable_bytes(std::span(vertices)));
-    for (std::size_t i = 0; i < vertices.size(); i += 2) {
-        host.positions.emplace_back(vertices[i]);
-        host.normals.emplace_back(vertices[i + 1]);
-    }
-    if (options.wantsTexCoords) {
-        host.texCoords.resize(mesh.vertexCount);
-        downloadBytes(device, mesh.texCoords.buffer, std::as_writable_bytes(std::span(host.texCoords)));
-    }
-    host.indices.resize(std::size_t(mesh.triangleCount) * 3);
-    downloadBytes(device, mesh.indices, std::as_writable_bytes(std::span(host.indices)));
-    return host;
+    return readBack(parts_->device, dice(model, rates, options));
 }
 
 } // namespace relief

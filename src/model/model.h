@@ -209,6 +209,7 @@ struct DicedMesh {
     std::vector<std::uint32_t> runFirsts;      ///< first vertex of each run along edges; one more at the end
     std::uint64_t sampleCount = 0;             ///< distinct samples
     std::uint32_t vertexCount = 0, triangleCount = 0, maxRate = 0;
+    bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
     double milliseconds = 0;       ///< on the device; 0 where it cannot time
     double vertexMilliseconds = 0; ///< without the triangles; only where DiceOptions asks for it
@@ -228,7 +229,7 @@ public:
 
     /// Throws Failure::device when the mesh would take more than the memory allowed, before anything is allocated.
     DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
-    /// The same read back: ready to be written.
+    /// The same read back.
     DenseMesh diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
 
     struct Parts;
@@ -236,6 +237,9 @@ public:
 private:
     std::unique_ptr<Parts> parts_;
 };
+
+/// The same on the host: ready to be written.
+DenseMesh readBack(Device& device, const DicedMesh& mesh);
 
 // --- captured triangles -------------------------------------------------------------------------------------------
 

@@ -36,7 +36,7 @@ TEST_F(Said, jsonCountsWhatWasDrawn) {
 TEST_F(Said, jsonKnowsTheMap) {
     writeImage(folder_ / "h.exr", sineImage(16, 1), SampleType::real);
     const nlohmann::json json = jsonOf(relief(render_, "--json --scale 0.1 --height " + folder_ / "h.exr"));
-    EXPECT_EQ(json.at("map_bytes"), 16 * 16 * 4);
+    EXPECT_EQ(json.at("map_bytes"), (16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * 4); // with its mips
 }
 
 TEST_F(Said, nothingWithQuiet) {
