@@ -68,7 +68,7 @@ Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, 
     camera.eye = target + back * distance;
     camera.fieldOfView = options.fieldOfView;
     const double toCenter = glm::length(camera.eye - bounds.center());
-    camera.nearDistance = std::max(toCenter - size, 1e-3 * size);
+    camera.nearDistance = std::max(toCenter - 1.25 * size, 1e-3 * size); // room for boxes around it
     camera.farDistance = toCenter + size;
     return camera;
 }

@@ -17,7 +17,8 @@ void Renderer::Parts::makeTriangles(Frame& frame, FrameStats& stats) {
 
 void Renderer::Parts::makePlan(Frame& frame, FrameStats& stats) {
     const RenderOptions& o = frame.options;
-    const std::vector<char> isVisible = visibleFaces(frame.model, frame.scene.worldToClip);
+    const std::vector<char> isVisible =
+        visibleFaces(frame.model, frame.scene.worldToClip, viewOf(o.camera, desc.height));
     const DrawPlan& plan = frame.plan =
         o.path == Path::grid
             ? planGrids(frame.model, frame.rates, isVisible)
@@ -73,10 +74,10 @@ const Buffer& Renderer::Parts::gridOf(const Model& model, const DrawBatch& batch
     return (model.isTriangles() ? triangleGrids : grids).at(batch.columns);
 }
 
-/// What casts a shadow may be out of sight.
+/// What casts a shadow may be out of sight, and cracks are counted through all that there is.
 std::span<const DrawBatch> Renderer::Parts::batchesOf(const Frame& frame, Pass pass) {
     const std::span<const DrawBatch> all = frame.plan.batches;
-    return pass == Pass::shadow ? all : all.first(frame.plan.visibleBatchCount);
+    return pass == Pass::shadow || pass == Pass::cracks ? all : all.first(frame.plan.visibleBatchCount);
 }
 
 void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pass) {

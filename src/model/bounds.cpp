@@ -8,7 +8,10 @@ namespace {
 
 constexpr int kBlock = 8; ///< texels a side of the smallest squares
 
-Range joined(const Range& a, const Range& b) { return {std::min(a.lowest, b.lowest), std::max(a.highest, b.highest)}; }
+Range joined(const Range& a, const Range& b) {
+    return {std::min(a.lowest, b.lowest), std::max(a.highest, b.highest), std::max(a.slopeS, b.slopeS),
+            std::max(a.slopeT, b.slopeT)};
+}
 
 /// Where control points of one patch lie, in as many dimensions as needed.
 template <typename V>
@@ -55,18 +58,24 @@ void addLeaves(const Surface& surface, std::uint32_t entry, std::vector<std::uin
 HeightPyramid::HeightPyramid(const HeightMap& map)
     : size_(map.width, map.height), wrap_(map.wrap), mid_(map.mid), scale_(map.scale) {
     Level base{(map.width + kBlock - 1) / kBlock, (map.height + kBlock - 1) / kBlock, {}};
-    base.blocks.assign(std::size_t(base.width) * std::size_t(base.height), {INFINITY, -INFINITY});
+    base.blocks.assign(std::size_t(base.width) * std::size_t(base.height), {INFINITY, -INFINITY, 0, 0});
+    const auto texelAt = [&](int x, int y) {
+        return map.texels[std::size_t(y) * std::size_t(map.width) + std::size_t(x)];
+    };
+    // The texel after the last one: the first again, or itself.
+    const auto next = [&](int i, int count) { return i + 1 < count ? i + 1 : map.wrap == Wrap::repeat ? 0 : i; };
     for (int y = 0; y < map.height; ++y)
         for (int x = 0; x < map.width; ++x) {
-            const float texel = map.texels[std::size_t(y) * std::size_t(map.width) + std::size_t(x)];
+            const float texel = texelAt(x, y);
             Range& block = base.blocks[std::size_t(y / kBlock) * std::size_t(base.width) + std::size_t(x / kBlock)];
-            block = joined(block, {texel, texel});
+            block = joined(block, {texel, texel, std::abs(texelAt(next(x, map.width), y) - texel),
+                                   std::abs(texelAt(x, next(y, map.height)) - texel)});
         }
     levels_.push_back(std::move(base));
     while (levels_.back().blocks.size() > 1) {
         const Level& fine = levels_.back();
         Level coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}};
-        coarse.blocks.assign(std::size_t(coarse.width) * std::size_t(coarse.height), {INFINITY, -INFINITY});
+        coarse.blocks.assign(std::size_t(coarse.width) * std::size_t(coarse.height), {INFINITY, -INFINITY, 0, 0});
         for (int y = 0; y < fine.height; ++y)
             for (int x = 0; x < fine.width; ++x) {
                 Range& block = coarse.blocks[std::size_t(y / 2) * std::size_t(coarse.width) + std::size_t(x / 2)];
@@ -78,7 +87,8 @@ HeightPyramid::HeightPyramid(const HeightMap& map)
 
 Range HeightPyramid::heights(const Range& stored) const {
     const auto a = float(scale_ * (double(stored.lowest) - mid_)), b = float(scale_ * (double(stored.highest) - mid_));
-    return {std::min(a, b), std::max(a, b)};
+    const dvec2 slope = std::abs(scale_) * dvec2(size_) * dvec2(stored.slopeS, stored.slopeT);
+    return {std::min(a, b), std::max(a, b), float(slope.x), float(slope.y)};
 }
 
 Range HeightPyramid::blocksIn(std::size_t number, const ivec2& first, const ivec2& last) const {
@@ -86,7 +96,7 @@ Range HeightPyramid::blocksIn(std::size_t number, const ivec2& first, const ivec
     const auto wrapped = [&](int i, int count) {
         return wrap_ == Wrap::repeat ? ((i % count) + count) % count : std::clamp(i, 0, count - 1);
     };
-    Range range{INFINITY, -INFINITY};
+    Range range{INFINITY, -INFINITY, 0, 0};
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x)
             range = joined(range, level.blocks[std::size_t(wrapped(y, level.height)) * std::size_t(level.width) +
@@ -142,6 +152,133 @@ std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> poi
         }
         bounds[f].add(dvec3(box.lower) - double(reach));
         bounds[f].add(dvec3(box.upper) + double(reach));
+    }
+    return bounds;
+}
+
+namespace {
+
+/// Control points of a bicubic patch by row and column; first and second differences are those of its derivatives.
+template <typename V>
+struct Net {
+    V points[4][4];
+
+    [[nodiscard]] V du(int row, int column) const { return points[row][column + 1] - points[row][column]; }
+    [[nodiscard]] V dv(int row, int column) const { return points[row + 1][column] - points[row][column]; }
+};
+
+template <typename V, typename P>
+Net<V> netOf(std::span<const std::uint32_t> indices, std::span<const P> points) {
+    Net<V> net;
+    for (std::size_t i = 0; i < 16; ++i) net.points[i / 4][i % 4] = V(points[indices[i]]);
+    return net;
+}
+
+/// Longest vectors of each kind over a net.
+struct Lengths {
+    double u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+};
+
+Lengths lengthsOf(const Net<dvec3>& net) {
+    Lengths l;
+    const auto grow = [](double& most, const dvec3& x) { most = std::max(most, glm::length(x)); };
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 4; ++column) {
+            if (column < 3) grow(l.u, net.du(row, column));
+            if (row < 3) grow(l.v, net.dv(row, column));
+            if (column < 2) grow(l.uu, net.du(row, column + 1) - net.du(row, column));
+            if (row < 2) grow(l.vv, net.dv(row + 1, column) - net.dv(row, column));
+            if (column < 3 && row < 3) grow(l.uv, net.du(row + 1, column) - net.du(row, column));
+        }
+    return l;
+}
+
+/// Most that s and t change along u and along v.
+struct TextureSlopes {
+    double su = 1, sv = 0, tu = 0, tv = 1; ///< of a face's own (u,v)
+};
+
+TextureSlopes slopesOf(const Net<dvec2>& net) {
+    TextureSlopes most{0, 0, 0, 0};
+    for (int row = 0; row < 4; ++row)
+        for (int column = 0; column < 3; ++column) {
+            const dvec2 u = glm::abs(net.du(row, column)), v = glm::abs(net.dv(column, row));
+            most.su = std::max(most.su, u.x), most.tu = std::max(most.tu, u.y);
+            most.sv = std::max(most.sv, v.x), most.tv = std::max(most.tv, v.y);
+        }
+    return most;
+}
+
+/// p_u x p_v is a convex combination of the products of all differences along u with all along v.
+std::vector<dvec3> areaVectors(const Net<dvec3>& net) {
+    std::vector<dvec3> vectors;
+    vectors.reserve(144);
+    for (int i = 0; i < 12; ++i)
+        for (int j = 0; j < 12; ++j) vectors.push_back(glm::cross(net.du(i / 3, i % 3), net.dv(j % 3, j / 3)));
+    return vectors;
+}
+
+/// Of the vectors, and of all that are no farther than `ball` from them.
+NormalBounds boundsOf(const std::vector<dvec3>& vectors, double ball) {
+    NormalBounds bounds;
+    for (const dvec3& v : vectors) bounds.axis += v;
+    const double length = glm::length(bounds.axis);
+    if (!(length > 0)) return {};
+    bounds.axis /= length;
+    bounds.along = 1e300;
+    for (const dvec3& v : vectors) {
+        const double along = glm::dot(v, bounds.axis);
+        bounds.along = std::min(bounds.along, along);
+        bounds.across = std::max(bounds.across, glm::length(v - along * bounds.axis));
+    }
+    bounds.along = std::max(bounds.along - ball, 0.0);
+    bounds.across += ball;
+    return bounds;
+}
+
+/// How far displacement moves q_u x q_v from p_u x p_v: q_u = p_u + h_u n + h n_u, where |n_u| is at most
+/// (|p_uu||p_v| + |p_u||p_uv|) / |p_u x p_v|.
+double displacementBall(const Lengths& l, double leastArea, const Range& heights, const TextureSlopes& texture) {
+    if (!(leastArea > 0)) return INFINITY;
+    const double reach = std::max(std::abs(double(heights.lowest)), std::abs(double(heights.highest)));
+    const double ru =
+        heights.slopeS * texture.su + heights.slopeT * texture.tu + reach * (l.uu * l.v + l.u * l.uv) / leastArea;
+    const double rv =
+        heights.slopeS * texture.sv + heights.slopeT * texture.tv + reach * (l.uv * l.v + l.u * l.vv) / leastArea;
+    return l.u * rv + l.v * ru + ru * rv;
+}
+
+/// Bicubic, and no phantom points beyond a boundary.
+bool isPlain(std::uint32_t type, std::uint32_t param1) { return type == kPatchRegular && ((param1 >> 7) & 31u) == 0; }
+
+NormalBounds boundsOfPatch(const Surface& surface, const Patch& patch, std::span<const vec3> points,
+                           const HeightPyramid* pyramid) {
+    if (!isPlain(patch.type, patch.param1)) return {};
+    const auto net = netOf<dvec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, 16), points);
+    const std::vector<dvec3> vectors = areaVectors(net);
+    if (pyramid == nullptr) return boundsOf(vectors, 0);
+    TextureSlopes texture;
+    Box<vec2> box{vec2(0), vec2(1)};
+    if (surface.hasTexCoords()) {
+        if (!isPlain(patch.texType, patch.texParam1)) return {};
+        const auto indices = std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, 16);
+        const std::span<const vec2> texPoints = surface.texPoints;
+        box = patchBox<vec2>(indices, texPoints, patch.texParam1);
+        texture = slopesOf(netOf<dvec2>(indices, texPoints));
+    }
+    const Range heights = pyramid->range(box.lower, box.upper);
+    return boundsOf(vectors, displacementBall(lengthsOf(net), boundsOf(vectors, 0).along, heights, texture));
+}
+
+} // namespace
+
+std::vector<NormalBounds> normalBounds(const Surface& surface, std::span<const vec3> points,
+                                       const HeightPyramid* pyramid) {
+    std::vector<NormalBounds> bounds;
+    for (const Face& face : surface.faces) {
+        const bool isOnePatch = face.root != kNoPatch && (face.root & kLeafBit) != 0;
+        bounds.push_back(isOnePatch ? boundsOfPatch(surface, surface.patches[face.root & ~kLeafBit], points, pyramid)
+                                    : NormalBounds{});
     }
     return bounds;
 }

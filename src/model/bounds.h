@@ -12,6 +12,8 @@ namespace relief {
 
 struct Range {
     float lowest = 0, highest = 0;
+    float slopeS = 0,
+          slopeT = 0; ///< most that neighbouring texels differ, along rows and down columns; of h by s and t
 };
 
 /// Smallest and largest heights of squares of texels, and of squares of those.
@@ -40,5 +42,18 @@ private:
 /// A box around each displaced face (empty for holes): the patches lie in the hull of their control points.
 std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points, const HeightMap* map,
                                const HeightPyramid& pyramid);
+
+/// Bounds of the displaced normals m = q_u x q_v of a face, not unit: along `axis` at least `along`, across it at most
+/// `across`. A face whose normals are not bounded has along = 0.
+struct NormalBounds {
+    dvec3 axis{0};
+    double along = 0, across = 0;
+};
+
+/// For faces of a single bicubic patch without boundary: both tangents are convex combinations of differences of
+/// control points, and what displacement adds to them is bounded by heights, their slopes and second differences.
+/// `pyramid`: of the height map, or null.
+std::vector<NormalBounds> normalBounds(const Surface& surface, std::span<const vec3> points,
+                                       const HeightPyramid* pyramid);
 
 } // namespace relief

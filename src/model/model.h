@@ -28,6 +28,7 @@ struct ModelDesc {
 
 struct DiceTable;
 class HeightPyramid;
+struct NormalBounds;
 
 /// An edge on the height map, at its owner.
 struct EdgeOnMap {
@@ -54,6 +55,8 @@ public:
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
     [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
     [[nodiscard]] const std::vector<std::uint32_t>& tree() const { return tree_; } ///< as Surface::tree
+    /// Bounds of the normals of displaced faces; empty unless the surface is closed and oriented.
+    [[nodiscard]] const std::vector<NormalBounds>& normalBounds() const { return normalBounds_; }
     /// Boxes around displaced faces; empty ones for holes.
     [[nodiscard]] const std::vector<Bounds>& faceBounds() const { return faceBounds_; }
     /// What edges are on the height map; measured when first asked for (empty then).
@@ -93,6 +96,7 @@ private:
     mutable std::vector<EdgeOnMap> edgesOnMap_;
     std::unique_ptr<HeightPyramid> heightPyramid_;
     std::vector<Bounds> faceBounds_;
+    std::vector<NormalBounds> normalBounds_;
     std::vector<std::uint32_t> mapFirsts_; ///< where the texels of each level begin
     std::vector<bool> edgeIsHalf_, patchIsRegular_;
     std::vector<std::uint32_t> cornerFlags_;
@@ -166,8 +170,9 @@ FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint3
 
 // --- draws --------------------------------------------------------------------------------------------------------
 
-/// One a face: whether its box may touch what `worldToClip` shows. Others are hidden with certainty.
-std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip);
+/// One a face: false where it is hidden with certainty: its box is outside what `worldToClip` shows, or all its normals
+/// point away and the near plane cuts nothing of a closed surface.
+std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip, const View& view);
 
 /// Faces drawn together, and the calls that draw them.
 struct DrawBatch {

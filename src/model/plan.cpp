@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "model/bounds.h"
 #include "model/stages.h"
 
 namespace relief {
@@ -38,17 +39,41 @@ std::vector<std::uint32_t> facesOf(const Model& model, std::span<const char> isV
     return faces;
 }
 
+glm::dvec4 cornerInClip(const Bounds& box, int corner, const mat4& worldToClip) {
+    const dvec3 p((corner & 1) != 0 ? box.upper.x : box.lower.x, (corner & 2) != 0 ? box.upper.y : box.lower.y,
+                  (corner & 4) != 0 ? box.upper.z : box.lower.z);
+    return glm::dmat4(worldToClip) * glm::dvec4(p, 1);
+}
+
+/// True when a corner of the box is nearer than the near plane, where depth is 1.
+bool isCut(const Bounds& box, const mat4& worldToClip) {
+    for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
+        const glm::dvec4 c = cornerInClip(box, corner, worldToClip);
+        if (c.z > c.w) return true;
+    }
+    return false;
+}
+
 /// True when all corners of the box are beyond one plane of the view: left, right, below, above, behind, too far.
 bool isOutside(const Bounds& box, const mat4& worldToClip) {
     int beyond[6] = {};
     for (int corner = 0; corner < 8; ++corner) {
-        const dvec3 p((corner & 1) != 0 ? box.upper.x : box.lower.x, (corner & 2) != 0 ? box.upper.y : box.lower.y,
-                      (corner & 4) != 0 ? box.upper.z : box.lower.z);
-        const glm::dvec4 c = glm::dmat4(worldToClip) * glm::dvec4(p, 1);
+        const glm::dvec4 c = cornerInClip(box, corner, worldToClip);
         const bool isBeyond[6] = {c.x<-c.w, c.x> c.w, c.y<-c.w, c.y> c.w, c.z > c.w, c.z < 0};
         for (int plane = 0; plane < 6; ++plane) beyond[plane] += isBeyond[plane] ? 1 : 0;
     }
     return std::ranges::find(beyond, 8) != std::end(beyond);
+}
+
+/// True when m . (q - eye) > 0 for every normal m and every point q of the bounds: with the angle x between q - eye and
+/// the axis that is along cos x > across sin x. All q lie in a ball around the box's centre.
+bool facesAway(const Bounds& box, const NormalBounds& normals, const dvec3& eye) {
+    const dvec3 toCenter = box.center() - eye;
+    const double distance = glm::length(toCenter), radius = box.diagonal() / 2;
+    if (normals.along <= 0 || distance <= radius) return false;
+    const double angle =
+        std::acos(std::clamp(glm::dot(toCenter, normals.axis) / distance, -1.0, 1.0)) + std::asin(radius / distance);
+    return angle < 1.57 && normals.along * std::cos(angle) > normals.across * std::sin(angle);
 }
 
 } // namespace
@@ -72,10 +97,19 @@ std::uint64_t dicedTriangles(std::span<const std::uint32_t> r) {
     return sumOf(r) + 3 * inner + inner * inner;
 }
 
-std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip) {
+std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip, const View& view) {
+    // Where the near plane cuts the object open, and from within, insides are seen.
+    const bool seesOutside =
+        !model.normalBounds().empty() &&
+        std::ranges::none_of(model.faceBounds(), [&](const Bounds& box) { return isCut(box, worldToClip); });
     std::vector<char> isVisible;
     isVisible.reserve(model.faceBounds().size());
-    for (const Bounds& box : model.faceBounds()) isVisible.push_back(!box.isEmpty() && !isOutside(box, worldToClip));
+    for (std::size_t face = 0; face < model.faceBounds().size(); ++face) {
+        const Bounds& box = model.faceBounds()[face];
+        const bool isHidden = box.isEmpty() || isOutside(box, worldToClip) ||
+                              (seesOutside && facesAway(box, model.normalBounds()[face], dvec3(view.eye)));
+        isVisible.push_back(isHidden ? 0 : 1);
+    }
     return isVisible;
 }
 
