@@ -34,7 +34,7 @@ const std::map<std::string, std::string> kPackageOf = {
 };
 
 /// What no find_... names: tools, and what is loaded when relief runs.
-const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "nodejs", "npm"};
+const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers"};
 
 Names packages() {
     Names names;
