@@ -61,11 +61,6 @@ Leaf findLeaf(uint face, vec2 uv) {
     return leaf;
 }
 
-uint patchSize(uint type) {
-    return type == kPatchRegular ? 16u : type == kPatchGregory ? 20u : type == kPatchQuads ? 4u
-           : type == kPatchLoop ? 12u : type == kPatchGregoryTriangle ? 18u : 3u;
-}
-
 // A control point of a patch of the surface, or of the texture coordinates on it (in x and y).
 vec3 controlPoint(bool isTexture, uint i) {
     if (isTexture) return vec3(RELIEF_TEX_PATCH_POINT(i), 0.0);

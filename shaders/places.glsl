@@ -39,15 +39,7 @@ float faceLevel(uint face, vec2 uv) {
 #endif
 }
 
-// Parameter of sample k of n along an edge (see segmentsOf); seen from the other end it is 1 minus this, to the bit.
-float sampleParameter(uint k, uint n, float rate) {
-    uint near = min(k, n - k);
-    precise float t = min(float(near) / rate, 0.5);
-    precise float mirrored = 1.0 - t;
-    return k == near ? t : mirrored;
-}
-
-// The same for a coordinate x = k/n that needs no exactness.
+// sampleParameter for a coordinate x = k/n that needs no exactness.
 float spaced(float x, float n, float rate) {
     float t = min(min(x, 1.0 - x) * n / rate, 0.5);
     return x <= 0.5 ? t : 1.0 - t;

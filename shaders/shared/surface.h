@@ -45,6 +45,12 @@ RELIEF_CONSTANT uint kPatchGregoryTriangle = 10u;
 RELIEF_CONSTANT uint kPlaceOnBoundary = 1u; // an edge of one drawn face alone, or an end of such an edge
 RELIEF_CONSTANT uint kPlaceOnSeam = 2u;     // an edge whose faces have texture coordinates of their own
 
+// Control points of a patch.
+RELIEF_SHARED_FUNCTION uint patchSize(uint type) {
+    return type == kPatchRegular ? 16u : type == kPatchGregory ? 20u : type == kPatchQuads ? 4u
+           : type == kPatchLoop ? 12u : type == kPatchGregoryTriangle ? 18u : 3u;
+}
+
 struct Patch {
     uint firstPoint;     // into Surface::patchPoints
     uint param0;         // Far::PatchParam::field0

@@ -14,10 +14,6 @@ namespace relief {
 
 // --- watertight ---------------------------------------------------------------------------------------------------
 
-/// True when front and back faces cancel along every line of sight: every edge is run by as many drawn faces one way as
-/// the other.
-bool enclosesVolume(const Surface& surface);
-
 /// All edges of one triangle are counted; gaps and T-junctions are looked for at so many of the open ones, among so
 /// many.
 inline constexpr std::size_t kMostDiagnosedEdges = 1u << 13, kMostKeptEdges = 1u << 20;

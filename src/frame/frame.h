@@ -74,7 +74,7 @@ struct RenderOptions : TriangleOptions {
 
 struct FrameStats {
     std::uint64_t triangleCount = 0, faceCount = 0; ///< of the whole object
-    std::uint64_t hiddenFaceCount = 0;              ///< out of view: not drawn but into the shadow map
+    std::uint64_t hiddenFaceCount = 0;              ///< out of view or facing away: only in the shadow map
     std::uint64_t vertexCount = 0;                  ///< distinct samples of the surface: what a dense mesh would store
     std::uint32_t drawCount = 0, maxRate = 0;
     /// On the device; 0 where it cannot time.

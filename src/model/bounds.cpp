@@ -23,17 +23,6 @@ struct Box {
     [[nodiscard]] bool isEmpty() const { return lower.x > upper.x; }
 };
 
-std::uint32_t pointCount(std::uint32_t type) {
-    switch (type) {
-    case kPatchRegular: return 16;
-    case kPatchGregory: return 20;
-    case kPatchQuads: return 4;
-    case kPatchLoop: return 12;
-    case kPatchGregoryTriangle: return 18;
-    default: return 3;
-    }
-}
-
 /// The hull's box. Beyond a boundary a phantom point 2 a - b takes part, which is never farther than the box is large.
 template <typename V>
 Box<V> patchBox(std::span<const std::uint32_t> indices, std::span<const V> points, std::uint32_t param1) {
@@ -42,15 +31,6 @@ Box<V> patchBox(std::span<const std::uint32_t> indices, std::span<const V> point
     const bool isBoundary = ((param1 >> 7) & 31u) != 0;
     const V phantom = isBoundary ? box.upper - box.lower : V(0);
     return {box.lower - phantom, box.upper + phantom};
-}
-
-void addLeaves(const Surface& surface, std::uint32_t entry, std::vector<std::uint32_t>& leaves) {
-    if (entry == kNoPatch) return;
-    if ((entry & kLeafBit) != 0) {
-        leaves.push_back(entry & ~kLeafBit);
-        return;
-    }
-    for (std::uint32_t child = 0; child < 4; ++child) addLeaves(surface, surface.tree[entry + child], leaves);
 }
 
 } // namespace
@@ -128,19 +108,16 @@ Range HeightPyramid::range(const vec2& lower, const vec2& upper) const {
 std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points, const HeightMap* map,
                                const HeightPyramid& pyramid) {
     std::vector<Bounds> bounds(surface.faces.size());
-    std::vector<std::uint32_t> leaves;
     for (std::size_t f = 0; f < bounds.size(); ++f) {
-        leaves.clear();
-        addLeaves(surface, surface.faces[f].root, leaves);
         Box<vec3> box;
         Box<vec2> texture;
-        for (const std::uint32_t leaf : leaves) {
-            const Patch& patch = surface.patches[leaf];
-            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, pointCount(patch.type)),
+        for (const TreeLeaf& leaf : leavesOf(surface.tree, surface.faces[f].root)) {
+            const Patch& patch = surface.patches[leaf.patchIndex];
+            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patchSize(patch.type)),
                                    points, patch.param1));
             if (!surface.hasTexCoords()) continue;
             const auto indices =
-                std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, pointCount(patch.texType));
+                std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patchSize(patch.texType));
             texture.add(patchBox<vec2>(indices, surface.texPoints, patch.texParam1));
         }
         if (box.isEmpty()) continue;

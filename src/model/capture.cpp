@@ -159,14 +159,8 @@ CapturedMesh Capture::grids() {
 CapturedMesh Capture::diced() {
     Dicer dicer(device);
     const DicedMesh diced = dicer.dice(model, rates, {.normal = NormalKind::limit, .memory = options.memory});
-    std::vector<vec4> vertices(std::size_t(diced.vertexCount) * 2);
-    downloadBytes(device, diced.vertices.buffer, std::as_writable_bytes(std::span(vertices)));
-    CapturedMesh mesh;
-    for (std::size_t i = 0; i < vertices.size(); i += 2) mesh.positions.emplace_back(vertices[i]);
-    mesh.isOnBoundary = boundaryVertices(device, model, diced);
-    mesh.indices.resize(std::size_t(diced.triangleCount) * 3);
-    downloadBytes(device, diced.indices, std::as_writable_bytes(std::span(mesh.indices)));
-    return mesh;
+    DenseMesh host = relief::readBack(device, diced);
+    return {std::move(host.positions), boundaryVertices(device, model, diced), std::move(host.indices)};
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include "model/dice_table.h"
 #include "model/stages.h"
+#include "shared/rates.h"
 
 namespace relief {
 namespace {
@@ -64,7 +65,7 @@ private:
     }
 
     void addFace(std::uint32_t face) {
-        FaceSegments f = faceSegments(model_, rates_, face);
+        const FaceSegments f = faceSegments(model_, rates_, face);
         work_.faceRates.back() = std::uint32_t(std::ceil(f.largestRate));
         work_.maxRate = std::max(work_.maxRate, work_.faceRates.back());
         const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount())});
@@ -81,7 +82,7 @@ private:
         if (model_.isTriangles())
             addTriangleInside(face, std::max(f.u, 3u));
         else
-            addQuadInside(face, std::max(f.u, 2u), std::max(f.v, 2u));
+            addQuadInside(face, f);
         work_.sampleCount += work_.vertexCount - firstVertex;
     }
 
@@ -99,13 +100,14 @@ private:
         work_.vertexCount += std::uint64_t(n - 1) * (n - 2) / 2;
     }
 
-    void addQuadInside(std::uint32_t face, std::uint32_t m, std::uint32_t n) {
-        for (const LeafSquare& leaf : leavesOf(model_, face)) {
+    void addQuadInside(std::uint32_t face, const FaceSegments& f) {
+        const std::uint32_t m = std::max(f.u, 2u), n = std::max(f.v, 2u);
+        for (const TreeLeaf& leaf : leavesOf(model_.tree(), model_.faces()[face].root)) {
             // Fractional samples are not at i/m: which leaf they fall in is found by looking.
-            const std::uint32_t i0 = firstSample(leaf.u, leaf.depth, m, face, 0),
-                                i1 = firstSample(leaf.u + 1, leaf.depth, m, face, 0);
-            const std::uint32_t j0 = firstSample(leaf.v, leaf.depth, n, face, 1),
-                                j1 = firstSample(leaf.v + 1, leaf.depth, n, face, 1);
+            const std::uint32_t i0 = firstSample(leaf.u, leaf.depth, m, f.rateU),
+                                i1 = firstSample(leaf.u + 1, leaf.depth, m, f.rateU);
+            const std::uint32_t j0 = firstSample(leaf.v, leaf.depth, n, f.rateV),
+                                j1 = firstSample(leaf.v + 1, leaf.depth, n, f.rateV);
             if (i0 >= i1) continue;
             const std::uint32_t rows = std::max(kTileSamples / (i1 - i0), 1u);
             for (std::uint32_t j = j0; j < j1; j += rows)
@@ -122,27 +124,12 @@ private:
 
     /// The first inner sample at or past cell / 2^depth, at most n.
     [[nodiscard]] std::uint32_t firstSample(std::uint32_t cell, std::uint32_t depth, std::uint32_t n,
-                                            std::uint32_t face, int axis) const {
+                                            float rate) const {
         if (rates_.spacing == Spacing::equal) return std::min(firstIn(cell, depth, n), n);
         const float bound = std::ldexp(float(cell), -int(depth));
         std::uint32_t i = 1;
-        while (i < n && parameterOf(i, n, insideRate(face, axis)) < bound) ++i;
+        while (i < n && formulas::sampleParameter(i, n, rate) < bound) ++i;
         return i;
-    }
-
-    [[nodiscard]] float insideRate(std::uint32_t face, int axis) const {
-        float rate = 0;
-        for (const int side : {axis, axis + 2}) {
-            const std::uint32_t entry = model_.faces()[face].sides[side];
-            rate = std::max(rate, rates_.rates[entry & kSideEdgeMask] * ((entry & kSideSplit) != 0 ? 2.0f : 1.0f));
-        }
-        return rate;
-    }
-
-    /// As sampleParameter in places.glsl.
-    static float parameterOf(std::uint32_t k, std::uint32_t n, float rate) {
-        const float t = std::min(float(std::min(k, n - k)) / rate, 0.5f);
-        return 2 * k <= n ? t : 1 - t;
     }
 
     const Model& model_;

@@ -1,4 +1,4 @@
-// Internal: which vertices a diced mesh has, and where the leaves of a face's tree lie: topology, whatever the rates.
+// Internal: which vertices a diced mesh has: topology, whatever the rates.
 #pragma once
 
 #include "model/model.h"
@@ -20,13 +20,5 @@ DiceTable makeDiceTable(Device& device, const Model& model);
 
 /// One a vertex of a diced mesh: whether it lies on an edge of the cage that has one drawn face.
 std::vector<char> boundaryVertices(Device& device, const Model& model, const DicedMesh& mesh);
-
-/// A leaf patch covers ([u, u+1], [v, v+1]) / 2^depth of its face.
-struct LeafSquare {
-    std::uint32_t patchIndex = 0, depth = 0, u = 0, v = 0;
-};
-
-/// The leaves of a four-sided face.
-std::vector<LeafSquare> leavesOf(const Model& model, std::uint32_t face);
 
 } // namespace relief

@@ -85,18 +85,6 @@ HeightMips heightMips(const HeightMap& map) {
     return mips;
 }
 
-/// True when every edge is run by as many faces one way as the other.
-bool isOriented(const Surface& surface) {
-    std::vector<int> balance(surface.edges.size(), 0);
-    for (const Face& face : surface.faces)
-        for (int side = 0; side < surface.sideCount && face.root != kNoPatch; ++side) {
-            const std::uint32_t entry = face.sides[side], edge = entry & kSideEdgeMask;
-            for (std::uint32_t half = 0; half < ((entry & kSideSplit) != 0 ? 2u : 1u); ++half)
-                balance[edge + half] += (entry & kSideReversed) != 0 ? -1 : 1;
-        }
-    return std::ranges::all_of(balance, [](int b) { return b == 0; });
-}
-
 Texture emptyTexture(Device& device, VkFormat format) {
     const std::byte one[4] = {std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}};
     return uploadTexture(device, {.name = "empty", .format = format}, one, 4);
@@ -138,7 +126,7 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     heightPyramid_ =
         std::make_unique<HeightPyramid>(desc.height != nullptr ? HeightPyramid(*desc.height) : HeightPyramid());
     faceBounds_ = relief::faceBounds(s, refined, desc.height, *heightPyramid_);
-    if (s.isClosed && isOriented(s))
+    if (enclosesVolume(s))
         normalBounds_ = relief::normalBounds(s, refined, desc.height != nullptr ? heightPyramid_.get() : nullptr);
     std::vector<vec4> points;
     for (const vec3& p : refined) points.emplace_back(p, 1.0f);

@@ -164,6 +164,7 @@ private:
 struct FaceSegments {
     std::uint32_t sides[4] = {};
     std::uint32_t u = 1, v = 1; ///< along u and v; of a triangle both the largest
+    float rateU = 1, rateV = 1; ///< the larger of the two sides along u, and along v
     float largestRate = 1;
 };
 FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint32_t face);

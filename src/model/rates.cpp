@@ -172,7 +172,10 @@ FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint3
         const std::uint32_t entry = model.faces()[face].sides[side], edge = entry & kSideEdgeMask;
         const std::uint32_t halves = (entry & kSideSplit) != 0 ? 2 : 1;
         f.sides[side] = halves * rates.segments(edge);
-        f.largestRate = std::max(f.largestRate, float(halves) * rates.rates[edge]);
+        const float rate = float(halves) * rates.rates[edge];
+        float& along = side % 2 == 0 ? f.rateU : f.rateV;
+        along = std::max(along, rate);
+        f.largestRate = std::max(f.largestRate, rate);
     }
     f.u = std::max(f.sides[0], f.sides[2]);
     f.v = std::max(f.sides[1], f.sides[3]);

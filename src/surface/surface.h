@@ -55,6 +55,13 @@ struct Surface {
 /// cannot take (Loop wants triangles) and Failure::usage for an isolation out of range.
 Surface buildSurface(const Cage& cage, const SurfaceOptions& options);
 
+/// A leaf of a face's tree. In four-sided faces it covers ([u, u+1], [v, v+1]) / 2^depth.
+struct TreeLeaf {
+    std::uint32_t patchIndex = 0, depth = 0, u = 0, v = 0;
+};
+/// The leaves below a tree entry (Face::root); none of a hole.
+std::vector<TreeLeaf> leavesOf(std::span<const std::uint32_t> tree, std::uint32_t root);
+
 /// Cage points, then every stencil row: what Surface::patchPoints index. Sums run in double and round once.
 std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cagePositions);
 
@@ -71,6 +78,11 @@ struct EdgeTouches {
     }
 };
 EdgeTouches incidentTouches(const Surface& surface);
+EdgeTouches incidentTouches(std::span<const Face> faces, int sideCount, std::size_t edgeCount);
+
+/// True when front and back faces cancel along every line of sight: every edge is run by as many drawn faces one way as
+/// the other.
+bool enclosesVolume(const Surface& surface);
 
 /// Limit position and its derivatives by face coordinates (u,v).
 struct LimitFrame {

@@ -8,8 +8,8 @@ namespace {
 
 /// Calls `visit(edge, touch)` for the one or two edges along a side, as Face::sides says.
 template <typename Visit>
-void visitSide(const Surface& surface, std::uint32_t face, std::uint32_t side, const Visit& visit) {
-    const std::uint32_t entry = surface.faces[face].sides[side];
+void visitSide(std::span<const Face> faces, std::uint32_t face, std::uint32_t side, const Visit& visit) {
+    const std::uint32_t entry = faces[face].sides[side];
     const std::uint32_t edge = entry & kSideEdgeMask;
     const bool isReversed = entry & kSideReversed;
     const std::uint32_t pieceCount = entry & kSideSplit ? 2 : 1;
@@ -23,24 +23,38 @@ void visitSide(const Surface& surface, std::uint32_t face, std::uint32_t side, c
 }
 
 template <typename Visit>
-void visitSides(const Surface& surface, const Visit& visit) {
-    for (std::uint32_t face = 0; face < surface.faces.size(); ++face) {
-        if (surface.faces[face].root == kNoPatch) continue;
-        for (int side = 0; side < surface.sideCount; ++side) visitSide(surface, face, std::uint32_t(side), visit);
+void visitSides(std::span<const Face> faces, int sideCount, const Visit& visit) {
+    for (std::uint32_t face = 0; face < faces.size(); ++face) {
+        if (faces[face].root == kNoPatch) continue;
+        for (int side = 0; side < sideCount; ++side) visitSide(faces, face, std::uint32_t(side), visit);
     }
 }
 
 } // namespace
 
-EdgeTouches incidentTouches(const Surface& surface) {
+EdgeTouches incidentTouches(std::span<const Face> faces, int sideCount, std::size_t edgeCount) {
     EdgeTouches result;
-    result.firsts.assign(surface.edges.size() + 1, 0);
-    visitSides(surface, [&](std::uint32_t edge, const Touch&) { ++result.firsts[edge + 1]; });
+    result.firsts.assign(edgeCount + 1, 0);
+    visitSides(faces, sideCount, [&](std::uint32_t edge, const Touch&) { ++result.firsts[edge + 1]; });
     std::partial_sum(result.firsts.begin(), result.firsts.end(), result.firsts.begin());
     result.touches.resize(result.firsts.back());
     std::vector<std::uint32_t> next(result.firsts.begin(), result.firsts.end() - 1);
-    visitSides(surface, [&](std::uint32_t edge, const Touch& touch) { result.touches[next[edge]++] = touch; });
+    visitSides(faces, sideCount, [&](std::uint32_t edge, const Touch& touch) { result.touches[next[edge]++] = touch; });
     return result;
+}
+
+EdgeTouches incidentTouches(const Surface& surface) {
+    return incidentTouches(surface.faces, surface.sideCount, surface.edges.size());
+}
+
+bool enclosesVolume(const Surface& surface) {
+    const EdgeTouches touches = incidentTouches(surface);
+    for (std::size_t edge = 0; edge < surface.edges.size(); ++edge) {
+        int balance = 0;
+        for (const Touch& touch : touches.of(edge)) balance += touch.start < touch.end ? 1 : -1;
+        if (balance != 0) return false;
+    }
+    return true;
 }
 
 } // namespace relief
