@@ -1,6 +1,7 @@
 // All of relief: cages -> surfaces -> height maps -> models on a device -> pictures.
 #pragma once
 
+#include "animation/animation.h"
 #include "base/base.h"
 #include "cage/cage.h"
 #include "check/check.h"

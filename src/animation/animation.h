@@ -1,0 +1,119 @@
+// Where the points of a cage are at a time: point caches, skins and morphs, deformers. Topology never changes.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "cage/cage.h"
+
+namespace relief {
+
+// --- poses
+// ------------------------------------------------------------------------------------------------------------
+
+inline constexpr std::uint32_t kMostInfluences = 8; ///< joints that move one point
+
+/// How morph targets and joints move the points of a cage: fixed for a whole animation, so that a pose is a few
+/// matrices and weights.
+struct Rig {
+    std::vector<vec3> rest; ///< one a cage point, before morphs and joints
+    std::uint32_t jointCount = 0, morphCount = 0;
+    std::uint32_t influenceCount = 0;  ///< joints a point, 0..kMostInfluences; 0: points move by morphs alone
+    std::vector<std::uint32_t> joints; ///< influenceCount a point, each below jointCount
+    std::vector<float> weights;        ///< as joints; those of a point add up to 1
+    std::vector<vec3> morphOffsets;    ///< one a cage point, target after target: morphCount * rest.size()
+};
+
+/// Either the posed points themselves, or what moves them through a Rig.
+struct Pose {
+    std::vector<vec3> positions; ///< one a cage point; empty where a rig moves them
+    std::vector<mat4>
+        joints; ///< jointCount affine matrices: a joint's place in the world times its inverse bind matrix
+    std::vector<float> morphWeights; ///< morphCount
+};
+
+/// Points of a pose: its own, or sum_i w_i J_i (rest + sum_k m_k offset_k) (glTF 2.0, sections 3.7.2.2 and 3.7.3.3) in
+/// double precision. What the device does with the same numbers is held against it.
+std::vector<vec3> posedPositions(const Rig* rig, const Pose& pose);
+
+// --- animations
+// -------------------------------------------------------------------------------------------------------
+
+/// A cage's poses over time. Before the first key and after the last it stands still.
+class Animation {
+public:
+    virtual ~Animation() = default;
+
+    /// Throws Failure::input or Failure::file, naming the frame, where keys are read when they are first needed and one
+    /// of them is bad.
+    [[nodiscard]] virtual Pose pose(double seconds) const = 0;
+    /// What pose() names matrices and weights for, or null where it gives positions.
+    [[nodiscard]] virtual const Rig* rig() const { return nullptr; }
+    /// Seconds of the first and the last key; (0, 0) where there is only one.
+    [[nodiscard]] virtual dvec2 keyRange() const = 0;
+};
+
+/// The cage as it stands, at all times.
+std::unique_ptr<Animation> stillPose(const Cage& cage);
+
+// --- point caches
+// -----------------------------------------------------------------------------------------------------
+
+/// How positions between two keys are made.
+enum class Interpolation { linear, step };
+
+struct CacheOptions {
+    double fps = 24; ///< of caches that count in frames (PC2, OBJ sequences): frame k is at k / fps seconds
+    Interpolation interpolation = Interpolation::linear;
+};
+
+/// A point cache by the name of its file: .pc2, .mdd, or a sequence of cages, `cage.{frame:4}.obj` ({frame} or
+/// {frame:DIGITS}), of which all files that exist are keys. Counts are checked against the cage and the file's length
+/// before memory is taken; keys are read when they are needed. Throws Failure::file when it cannot be read,
+/// Failure::input, naming the file and the frame, when it does not fit the cage or holds numbers that are not finite.
+std::unique_ptr<Animation> readPointCache(const std::string& path, const Cage& cage, const CacheOptions& options,
+                                          const Warn& warn = warnOnStderr);
+
+/// Writes poses as .pc2 (frames startFrame, startFrame + 1, ...) or .mdd (seconds frame / fps), by the extension of
+/// `path`, whole or not at all: `positions(k)` for k in 0..frameCount-1, pointCount each. Throws Failure::usage for
+/// other extensions, Failure::input when a pose has another count, Failure::file when writing fails.
+struct CacheHeader {
+    std::uint32_t pointCount = 0, frameCount = 0;
+    double startFrame = 0, fps = 24;
+};
+void writePointCache(const std::string& path, const CacheHeader& header,
+                     const std::function<std::vector<vec3>(std::uint32_t)>& positions);
+
+/// The file name of a frame: `pattern` with {frame} or {frame:DIGITS} replaced by the number, padded with zeros. Throws
+/// Failure::usage for a pattern without exactly one such place, or with more than 9 digits.
+std::string frameName(const std::string& pattern, int frame);
+/// Whether `pattern` has such a place (or something in braces that is meant to be one).
+bool isFramePattern(const std::string& pattern);
+
+// --- skins
+// ------------------------------------------------------------------------------------------------------------
+
+struct SkinOptions {
+    std::string clip;          ///< the animation's name or number (from 0); "": the first
+    bool bindsNearest = false; ///< a cage point takes the skin of the nearest original vertex; else only of one at its
+                               ///< very place
+};
+
+/// The skin, the morph targets and the movement of nodes of a glTF file (.gltf, .glb), taken over by a cage: each cage
+/// point from the vertex of the file's meshes (as they stand in bind pose) at the same place. Throws Failure::file and
+/// Failure::input, naming file and element; for a cage point without a vertex at its place it names the point, its
+/// distance to the nearest and --bind-nearest.
+std::unique_ptr<Animation> readSkin(const std::string& path, const Cage& cage, const SkinOptions& options,
+                                    const Warn& warn = warnOnStderr);
+
+// --- deformers
+// --------------------------------------------------------------------------------------------------------
+
+/// `base` moved further by deformers, one after another: "twist(axis=y, angle=90*sin(t)) bend(angle=30)". Names, their
+/// values and the arithmetic of values over t (seconds) are listed by deformerHelp(). Throws Failure::usage for an
+/// expression that cannot be read, saying what and where.
+std::unique_ptr<Animation> deform(std::unique_ptr<Animation> base, const Cage& cage, const std::string& expression);
+/// The vocabulary, for --help: a line a deformer.
+std::string deformerHelp();
+
+} // namespace relief
