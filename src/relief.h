@@ -2,6 +2,7 @@
 #pragma once
 
 #include "animation/animation.h"
+#include "bake/bake.h"
 #include "base/base.h"
 #include "cage/cage.h"
 #include "check/check.h"
