@@ -1,4 +1,4 @@
-// All of relief: cages -> surfaces -> height maps -> models on a device -> pictures.
+// All of relief: cages -> surfaces -> height maps -> models on a device -> pictures; and what it costs.
 #pragma once
 
 #include "animation/animation.h"
@@ -9,5 +9,6 @@
 #include "displacement/displacement.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"
+#include "measure/measure.h"
 #include "model/model.h"
 #include "surface/surface.h"

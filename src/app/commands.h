@@ -15,6 +15,7 @@ Run addRender(CLI::App& app);
 Run addExport(CLI::App& app);
 Run addSample(CLI::App& app);
 Run addCheck(CLI::App& app);
+Run addBench(CLI::App& app);
 Run addInfo(CLI::App& app);
 
 } // namespace relief::app

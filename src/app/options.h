@@ -55,6 +55,7 @@ struct PictureArgs {
 };
 
 void addOutput(CLI::App& app, Output& output);
+void addProgress(CLI::App& app, ShowProgress& progress);
 void addSurface(CLI::App& app, SurfaceArgs& args);
 void addSurfaceOptions(CLI::App& app, SurfaceArgs& args); ///< the same without the cage itself
 void addPath(CLI::App& app, std::string& word, const std::string& defaultWords);
