@@ -84,6 +84,15 @@ std::uint64_t Contest::surfaceBytes(int isolation) {
     return bytes;
 }
 
+double Contest::heightRms() const {
+    const HeightMap& map = subject_.height;
+    double sum = 0, squares = 0;
+    for (const float texel : map.texels) sum += texel, squares += double(texel) * texel;
+    const double mean = sum / double(map.texels.size());
+    return std::abs(map.scale) * std::sqrt(std::max(0.0, squares / double(map.texels.size()) - mean * mean)) /
+           diagonal_;
+}
+
 double Contest::formatError(int side, MapFormat format) {
     const HeightMap &from = map(side, MapFormat::real), &to = map(side, format);
     double sum = 0;

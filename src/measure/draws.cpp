@@ -104,10 +104,8 @@ void drawRounds(Renderer& renderer, std::span<const Camera> views, int roundCoun
             options.camera = views[std::size_t(std::max(round, 0)) % views.size()];
             options.countsPipeline = round < 0; // the round that compiles shaders, not measured
             const FrameStats stats = renderer.render(*drawn.model, options).stats;
-            if (round < 0) {
-                drawn.last = stats;
-                continue;
-            }
+            if (round < 0) drawn.last = stats;
+            if (round < 0 && roundCount > 0) continue;
             drawn.wall.push_back(stats.wallMs);
             drawn.rates.push_back(stats.rateMs);
             drawn.dice.push_back(stats.diceMs);

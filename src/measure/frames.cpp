@@ -115,7 +115,9 @@ void measureScaling(Bench& bench, const Subject& subject) {
             dense = denseModel(bench.device, on.model, rate);
             all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
         }
-        drawRounds(renderer, on.views, triangles > 2e6 ? 3 : bench.options.isQuick ? 3 : 5, all);
+        if (triangles > 5e6)
+            std::erase_if(all, [](const Drawn& drawn) { return drawn.options.path == Path::tessellation; });
+        drawRounds(renderer, on.views, triangles > 2e6 ? 0 : 3, all);
         for (Drawn& drawn : all) {
             Row row{"scaling", subject.name, drawn.name, "triangles", double(drawn.last.triangleCount), {}};
             drawn.tell(row);

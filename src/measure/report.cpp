@@ -161,11 +161,12 @@ std::string reportOf(const Results& results) {
     html += section(results, "frame", "A frame of a million triangles", "Passes as the device timed them.", "", false);
     html +=
         section(results, "animate", "Animation", "What a new pose sends to the device.", animateFigures(results), true);
-    html +=
-        section(results, "memory", "Memory",
-                "The buffers that one frame of ten million triangles lists, and by how much the process grew for it "
-                "at most.",
-                "", false);
+    html += section(
+        results, "memory", "Memory",
+        "The buffers that one frame of ten million triangles lists, and the most resident memory of the process "
+        "that draws it, beside the same process with one segment an edge. With a CPU driver that is the "
+        "driver's memory, too: lavapipe keeps the triangles that it has binned and not yet drawn.",
+        "", false);
     html += section(results, "startup", "Starting up", "A whole relief render of a process of its own.", "", false);
     html += "<h2>What the numbers assume</h2>" + assumptions() + notesOf(results);
     html += "<h2>This run</h2>" + keyTable(results) + "</body></html>\n";
