@@ -24,8 +24,8 @@ Saving Contest::everything() const {
 }
 
 std::vector<int> Contest::sides() const {
-    std::vector<int> sides;
-    for (double side = subject_.height.width; side >= 16; side /= std::sqrt(2.0))
+    std::vector<int> sides{subject_.height.width};
+    for (double side = sides.front() / std::sqrt(2.0); side >= 16; side /= std::sqrt(2.0))
         sides.push_back(int(std::lround(side)));
     std::ranges::reverse(sides);
     return sides;

@@ -11,7 +11,8 @@ constexpr const char* kDense = "dense mesh, raw";
 
 /// The triangles of a surface as a dense mesh on the device.
 std::unique_ptr<Model> denseModel(Device& device, const Model& model, int rate) {
-    const DenseMesh mesh = Dicer(device).diceToHost(model, exactRates(model, rate), {.wantsTexCoords = true});
+    const DenseMesh mesh =
+        Dicer(device).diceToHost(model, exactRates(model, rate), {.wantsTexCoords = model.hasTexCoords()});
     return std::make_unique<Model>(device, ModelDesc{.dense = &mesh});
 }
 
@@ -63,15 +64,14 @@ Cage repeated(const Cage& cage, int count) {
 
 /// Preparation against the faces of the cage.
 void measurePreparation(Bench& bench, const Subject& subject) {
-    const double most = bench.options.isQuick ? 6e3 : 1e5;
     int previous = 0;
-    for (double faces = double(subject.cage.faceCount()); faces <= 1.2 * most; faces *= 4) {
-        const int copies = int(std::lround(std::min(faces, most) / double(subject.cage.faceCount())));
-        if (copies == previous) break;
+    for (const double faces : {0.0, 6e3, 2.4e4, 1e5}) {
+        const int copies = std::max(1, int(std::lround(faces / double(subject.cage.faceCount()))));
+        if (copies == previous || faces > (bench.options.isQuick ? 6e3 : 1e5)) continue;
         previous = copies;
         const Cage cage = repeated(subject.cage, copies);
         std::vector<double> tables, upload;
-        for (int round = 0; round < (faces < 2e4 ? 3 : 1); ++round) {
+        for (int round = 0; round < (faces < 2e4 && !bench.options.isQuick ? 3 : 1); ++round) {
             Surface surface;
             tables.push_back(millisecondsOf([&] { surface = buildSurface(cage, subject.surface); }));
             upload.push_back(millisecondsOf(
@@ -107,7 +107,7 @@ void measureScaling(Bench& bench, const Subject& subject) {
     for (const double triangles : {3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7}) {
         bench.progress.advance();
         const int rate = on.rateFor(triangles);
-        if (rate == previous || triangles > (bench.options.isQuick ? 1e5 : 1e7)) continue;
+        if (rate == previous || triangles > (bench.options.isQuick ? 3e4 : 1e7)) continue;
         previous = rate;
         std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
         std::unique_ptr<Model> dense;

@@ -39,12 +39,11 @@ std::string cellOf(const Value& value) {
 }
 
 std::string goalTable(const std::vector<Goal>& goals) {
-    std::string html =
-        "<div class=\"scroll\"><table><tr><th class=\"words\">figure to reach</th><th class=\"words\">scene"
-        "</th><th>wanted</th><th>found</th><th></th></tr>";
+    std::string html = "<div class=\"scroll\"><table><tr><th class=\"words\">figure to reach</th><th>wanted</th>"
+                       "<th>found</th><th></th></tr>";
     for (const Goal& goal : goals)
-        html += fmt::format("<tr><td class=\"words\">{}</td><td class=\"words\">{}</td><td>{} {:.4g}{}</td>"
-                            "<td>{:.3g}{}</td><td class=\"{}\">{}</td></tr>",
+        html += fmt::format("<tr><td class=\"words\">{}<br><small>{}</small></td><td>{} {:.4g}{}</td><td>{:.3g}{}</td>"
+                            "<td class=\"{}\">{}</td></tr>",
                             escaped(goal.what), escaped(goal.scene), goal.isAtLeast ? "≥" : "≤", goal.wanted, goal.unit,
                             goal.found, goal.unit, goal.isMet() ? "good" : "bad", goal.isMet() ? "met" : "missed");
     return html + "</table></div>";
