@@ -11,7 +11,7 @@ namespace {
 
 constexpr MapFormat kFormats[] = {MapFormat::real, MapFormat::half, MapFormat::unorm16, MapFormat::unorm8,
                                   MapFormat::bc4};
-constexpr int kMostTries = 4; ///< savings that promise to meet a tolerance and do not
+constexpr int kMostTries = 2; ///< with maps of one size that promise to meet a tolerance and do not
 
 /// What a contestant is at one tolerance.
 struct Entry {
@@ -58,8 +58,8 @@ private:
         const double unit = std::pow(10, std::floor(std::log10(same)) - 1);
         std::vector<double> all{std::ceil(same / unit) * unit};
         const double most = 0.5 * contest_.heightRms();
-        for (const double round : {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3})
-            if (round > 1.5 * all.front() && round < most && all.size() < (bench_.options.isQuick ? 2u : 4u))
+        for (const double round : {1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3})
+            if (round > 1.99 * all.back() && round < most && all.size() < (bench_.options.isQuick ? 2u : 4u))
                 all.push_back(round);
         return all;
     }
@@ -134,11 +134,14 @@ private:
     }
 
     void addSurface(std::vector<Entry>& entries, double tolerance, MapFormat format) {
-        int tries = 0;
+        std::map<int, int> failures; // by the size of the map
         for (Saving& saving : promising(tolerance, format)) {
-            if (tries++ == kMostTries) break;
+            if (failures[saving.side] == kMostTries) continue;
             saving.rate = rateOf(saving, tolerance);
-            if (saving.rate == 0) continue;
+            if (saving.rate == 0) {
+                ++failures[saving.side];
+                continue;
+            }
             entries.push_back(entryOf(saving));
             return;
         }

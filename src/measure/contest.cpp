@@ -25,8 +25,11 @@ Saving Contest::everything() const {
 
 std::vector<int> Contest::sides() const {
     std::vector<int> sides{subject_.height.width};
-    for (double side = sides.front() / std::sqrt(2.0); side >= 16; side /= std::sqrt(2.0))
-        sides.push_back(int(std::lround(side)));
+    for (int step = 1;; ++step) {
+        const int side = int(std::lround(subject_.height.width * std::exp2(-0.5 * step)));
+        if (side < 16) break;
+        sides.push_back(side);
+    }
     std::ranges::reverse(sides);
     return sides;
 }

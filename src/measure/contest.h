@@ -1,6 +1,8 @@
 // Internal: how far meshes, and surfaces of smaller maps, are from the reference surface of one subject.
 #pragma once
 
+#include <tuple>
+
 #include "measure/parts.h"
 
 namespace relief {
@@ -14,9 +16,10 @@ struct Saving {
     int isolation = 6, side = 0; ///< `side`: columns of the map; rows in proportion
     MapFormat format = MapFormat::real;
     int rate = 1;
-
-    auto operator<=>(const Saving&) const = default;
 };
+inline bool operator<(const Saving& a, const Saving& b) {
+    return std::tie(a.isolation, a.side, a.format, a.rate) < std::tie(b.isolation, b.side, b.format, b.rate);
+}
 
 /// The reference is the displaced surface itself at four times the triangles of the largest mesh that is judged.
 class Contest {

@@ -159,11 +159,11 @@ std::string scalingFigures(const Results& results) {
                   .caption = "The lower border reads every resident byte once, the upper one fetches for every call "
                              "anew; a device is between them.",
                   .lines = linesOf(rows, at, value("read a frame, least"), value("read a frame, cacheless"))});
-    html += figureOf({.title = "Cost of a triangle",
+    html += figureOf({.title = "Cost of a further triangle",
                       .xLabel = "triangles",
-                      .yLabel = "dicing and color pass, a triangle",
+                      .yLabel = "dicing and color pass, a triangle more",
                       .yScale = Scale::nanoseconds,
-                      .lines = linesOf(rows, at, value("a triangle"))});
+                      .lines = linesOf(rows, at, value("a further triangle"))});
     html += figureOf({.title = "Preparing a cage",
                       .xLabel = "faces of the cage",
                       .yLabel = "OpenSubdiv's tables and upload",

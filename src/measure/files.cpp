@@ -8,7 +8,7 @@
 namespace relief {
 namespace {
 
-std::uint64_t writtenBytes(const HeightMap& map, const std::string& file, OIIO::TypeDesc type,
+std::uint64_t writtenBytes(const HeightMap& map, const std::string& file, const OIIO::TypeDesc& type,
                            const std::string& compression) {
     const ScratchFolder folder;
     const std::string path = folder / file;

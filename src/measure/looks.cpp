@@ -97,8 +97,8 @@ void Looks::addPair(double tolerance, const std::string& left, const std::string
         difference.texels[i] =
             std::min(1.0f, kAmplification * std::abs(difference.texels[i] - b->second.images[0].texels[i]));
     bench_.results.pictures.push_back({contest_.subject().name,
-                                       fmt::format("RMS error {:g} of the diagonal", tolerance), left, right,
-                                       a->second.pngs[0], b->second.pngs[0], pngOf(difference, folder_)});
+                                       fmt::format("RMS distance of {:g} % of the diagonal", 100 * tolerance), left,
+                                       right, a->second.pngs[0], b->second.pngs[0], pngOf(difference, folder_)});
 }
 
 void Looks::tell(const std::string& name, Row& row) const {

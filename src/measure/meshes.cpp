@@ -115,7 +115,8 @@ void fill(draco::Mesh& result, const DenseMesh& mesh) {
 
 std::vector<vec3> vectorsOf(const draco::Mesh& mesh, draco::GeometryAttribute::Type type) {
     const draco::PointAttribute* attribute = mesh.GetNamedAttribute(type);
-    std::vector<vec3> values(attribute != nullptr ? mesh.num_points() : 0);
+    if (attribute == nullptr) return {};
+    std::vector<vec3> values(mesh.num_points());
     for (std::uint32_t i = 0; i < values.size(); ++i) attribute->GetMappedValue(draco::PointIndex(i), &values[i].x);
     return values;
 }

@@ -45,7 +45,7 @@ public:
         std::vector<double> all;
         if (!isLog_) {
             const double step = niceStep((high_ - low_) / 5);
-            for (double x = std::ceil(low_ / step) * step; x <= high_; x += step) all.push_back(x);
+            for (int i = int(std::ceil(low_ / step)); i * step <= high_; ++i) all.push_back(i * step);
             return all;
         }
         const double decades = high_ - low_;

@@ -31,6 +31,7 @@ Run runProgram(const std::vector<std::string>& words, const std::string& output,
             const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
             if (file < 0 || dup2(file, STDOUT_FILENO) < 0) _exit(127);
             std::vector<char*> arguments;
+            arguments.reserve(words.size() + 1);
             for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
             arguments.push_back(nullptr);
             execv(arguments[0], arguments.data());

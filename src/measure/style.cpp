@@ -52,7 +52,9 @@ of both mean squares. A contestant is as small as it can be with a measured RMS 
 <li><b>Cage and map.</b> Resident is everything that the device holds of the surface: patches, trees, owners, refined points,
 texture coordinates, and the map with all its mips. Three things are saved at: the depth of refinement around extraordinary
 vertices, the size of the map, and its format. The device of today holds floats: other formats have had their geometry made
-from decoded values, and their bytes follow by arithmetic (marked ∗). On disk: the cage as OBJ text, and the map without mips.</li>
+from decoded values, and their bytes follow by arithmetic (marked ∗). On disk: the cage as OBJ text, and the map without mips.
+Few bytes come first: the smallest map that meets a tolerance can ask for more triangles than the dense mesh has, and times and
+reads are those of its own rate.</li>
 <li><b>Dense mesh.</b> Each distinct sample once, again where texture coordinates part. Raw: position, normal and texture
 coordinates as 32-bit floats, 32 bytes a vertex, and 32-bit indices. Quantised: 16-bit positions, 8-bit octahedral normals
 and 16-bit texture coordinates, 12 bytes a vertex, triangles and vertices in the order that caches like. Simplified by

@@ -47,7 +47,8 @@ std::string tableOfRows(std::span<const Row> rows) {
     for (const std::string& name : columns) {
         const auto row = std::ranges::find_if(rows, [&](const Row& r) { return r.find(name) != nullptr; });
         const std::string& unit = row->find(name)->unit;
-        lines[0].push_back(unit == "ms" || unit == "ns" || unit == "us" ? name + ", " + unit : name);
+        const bool isTime = unit == "ms" || unit == "ns" || unit == "us";
+        lines[0].push_back(isTime ? fmt::format("{}, {}", name, unit) : name);
     }
     for (const Row& row : rows) {
         std::vector<std::string> line{row.axis.empty() ? "" : fmt::format("{:g}", row.at), row.contestant};
