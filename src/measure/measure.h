@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 
-#include "animation/animation.h"
 #include "bake/bake.h"
 #include "frame/frame.h"
 
