@@ -17,6 +17,7 @@
 #include "timing.h"
 #ifdef RELIEF_EVALUATORS
 #include "evaluators.h"
+#include "posing.h"
 #endif
 
 namespace {
@@ -316,6 +317,9 @@ int main(int argc, char** argv) {
         };
         if (runs("frame")) benchFrame();
         if (runs("dice")) benchDice();
+#ifdef RELIEF_EVALUATORS
+        if (runs("posing")) bench::benchPosing();
+#endif
         if (runs("split")) benchSplit();
         if (runs("cold")) benchCold();
         return 0;

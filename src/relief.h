@@ -9,4 +9,5 @@
 #include "frame/frame.h"
 #include "gpu/gpu.h"
 #include "model/model.h"
+#include "pose/pose.h"
 #include "surface/surface.h"

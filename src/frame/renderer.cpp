@@ -49,7 +49,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) cons
     ShaderConstants c{.hasTexCoords = frame.model.hasTexCoords(),
                       .hasHeight = frame.model.hasHeight(),
                       .normal = frame.options.normal,
-                      .hasMips = frame.rates.hasMips()};
+                      .hasMips = frame.rates.hasMips(),
+                      .stretches = frame.model.stretches()};
     // Where positions are all that counts no normal is cheaper than the limit normal.
     if (pass == Pass::shadow || pass == Pass::cracks) c.normal = NormalKind::limit;
     if (pass == Pass::cracks) c.show = kShowCracks;
