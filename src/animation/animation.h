@@ -8,8 +8,7 @@
 
 namespace relief {
 
-// --- poses
-// ------------------------------------------------------------------------------------------------------------
+// --- poses -------------------------------------------------------------------------------------------------------
 
 inline constexpr std::uint32_t kMostInfluences = 8; ///< joints that move one point
 
@@ -36,8 +35,7 @@ struct Pose {
 /// double precision. What the device does with the same numbers is held against it.
 std::vector<vec3> posedPositions(const Rig* rig, const Pose& pose);
 
-// --- animations
-// -------------------------------------------------------------------------------------------------------
+// --- animations --------------------------------------------------------------------------------------------------
 
 /// A cage's poses over time. Before the first key and after the last it stands still. An object serves one thread at a
 /// time, because keys that have been read are kept.
@@ -57,15 +55,13 @@ public:
 /// The cage as it stands, at all times.
 std::unique_ptr<Animation> stillPose(const Cage& cage);
 
-// --- point caches
-// -----------------------------------------------------------------------------------------------------
+// --- point caches ------------------------------------------------------------------------------------------------
 
 /// How positions between two keys are made.
 enum class Interpolation { linear, step };
 
 struct CacheOptions {
-    double fps =
-        24; ///< of caches that count in frames (PC2, OBJ sequences): frame k is at k / fps seconds; MDD has seconds
+    double fps = 24; ///< where a cache counts in frames (PC2, OBJ): frame k is at k / fps seconds; MDD has seconds
     Interpolation interpolation = Interpolation::linear;
 };
 
@@ -97,8 +93,7 @@ std::string frameName(const std::string& pattern, int frame);
 /// Whether `pattern` has such a place (or something in braces that is meant to be one).
 bool isFramePattern(const std::string& pattern);
 
-// --- skins
-// ------------------------------------------------------------------------------------------------------------
+// --- skins -------------------------------------------------------------------------------------------------------
 
 struct SkinOptions {
     std::string clip;          ///< the animation's name or number (from 0); "": the first
@@ -113,8 +108,7 @@ struct SkinOptions {
 std::unique_ptr<Animation> readSkin(const std::string& path, const Cage& cage, const SkinOptions& options,
                                     const Warn& warn = warnOnStderr);
 
-// --- deformers
-// --------------------------------------------------------------------------------------------------------
+// --- deformers ---------------------------------------------------------------------------------------------------
 
 /// `base` moved further by deformers, one after another: "twist(axis=y, angle=90*sin(t)) bend(angle=30)". Names, their
 /// values and the arithmetic of values over t (seconds) are listed by deformerHelp(). They work from the bounding box

@@ -31,8 +31,7 @@ std::string firstShown(std::string_view rest) {
     return letter > ' ' && letter < 127 ? fmt::format("'{}'", rest.front()) : fmt::format("the byte {:#04x}", letter);
 }
 
-// --- reading
-// -------------------------------------------------------------------------------------------------------------
+// --- reading -----------------------------------------------------------------------------------------------------
 
 struct Function {
     const char* name;
@@ -135,8 +134,7 @@ void ArithmeticReader::readNamed() {
     put(function->step);
 }
 
-// --- computing
-// -----------------------------------------------------------------------------------------------------------
+// --- computing ---------------------------------------------------------------------------------------------------
 
 double computed(Step step, double a) {
     switch (step) {

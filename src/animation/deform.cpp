@@ -24,8 +24,7 @@ std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
     return names;
 }
 
-// --- reading
-// -------------------------------------------------------------------------------------------------------------
+// --- reading -----------------------------------------------------------------------------------------------------
 
 constexpr double kNextAxis = 3; ///< until the deformer's own axis is known
 
@@ -110,8 +109,7 @@ std::vector<Deformer> readDeformers(const std::string& expression) {
     return deformers;
 }
 
-// --- posing
-// --------------------------------------------------------------------------------------------------------------
+// --- posing ------------------------------------------------------------------------------------------------------
 
 Bounds boxOf(const Cage& cage) {
     Bounds box;

@@ -1,6 +1,7 @@
 // The vocabulary of deform(): names, their values, and what they do to a point.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "base/base.h"
@@ -24,7 +25,7 @@ struct ValueKind {
     std::string standard; ///< its text where it is not given
     bool isAxis = false;  ///< x, y, z, or `next`: the one after the deformer's first axis, in a circle
     /// Values at or below `above`, and at or above `below`, make no sense.
-    double above = -1e300, below = 1e300;
+    double above = -std::numeric_limits<double>::infinity(), below = std::numeric_limits<double>::infinity();
 };
 
 struct DeformerKind {
