@@ -102,8 +102,8 @@ struct SkinOptions {
 /// The skins, the morph targets and the movement of nodes of a glTF file (.gltf, .glb), taken over by a cage: each cage
 /// point follows the vertex of the file's meshes at the same place, up to 1e-5 of the cage's diagonal. The places of
 /// vertices are those in the world when no animation moves the nodes: what an exporter writes as OBJ from the same
-/// scene. Where the cage fits the numbers of the meshes themselves better (POSITION: in the space of the node, or in
-/// the bind pose of a skin), those count instead.
+/// scene. A cage that does not fit them, but the numbers of the meshes themselves (POSITION: in the space of the node,
+/// or in the bind pose of a skin) at every point, is bound by those instead.
 ///
 /// A point at its vertex takes over the vertex's place exactly. With bindsNearest it keeps its own: the pose at rest
 /// has the points of the cage, each moved by the joints, weights and morph targets of the nearest vertex.

@@ -104,12 +104,12 @@ Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Sour
     Bounds bounds;
     for (const vec3& p : cage.positions) bounds.add(dvec3(p));
     const double tolerance = kTolerance * bounds.diagonal();
-    Match match = matchNearest(cage, restPlaces(scene, sources), true);
-    if (match.largestDistance() <= tolerance) return match;
-    const Match inMeshes = matchNearest(cage, meshPlaces(sources), false);
-    if (inMeshes.largestDistance() < match.largestDistance()) match = inMeshes;
-    if (!bindsNearest) checkExact(match, cage, tolerance, path);
-    return match;
+    Match atRest = matchNearest(cage, restPlaces(scene, sources), true);
+    if (atRest.largestDistance() <= tolerance) return atRest;
+    Match inMeshes = matchNearest(cage, meshPlaces(sources), false);
+    if (inMeshes.largestDistance() <= tolerance) return inMeshes;
+    if (!bindsNearest) checkExact(atRest, cage, tolerance, path);
+    return atRest;
 }
 
 // --- the rig of the matched vertices ----------------------------------------------------------------------------

@@ -1,14 +1,11 @@
 #include <array>
 #include <bit>
-#include <limits>
 #include <unordered_map>
 
 #include "cage/gltf.h"
 
 namespace relief {
 namespace {
-
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 /// Three numbers by their bits: what is at one place, or one place's texture coordinates.
 using Key = std::array<std::uint32_t, 3>;
@@ -51,12 +48,14 @@ public:
 
 private:
     struct Corner {
-        std::uint32_t position = kNone, texCoord = kNone, normal = kNone;
+        std::uint32_t position = 0, texCoord = 0, normal = 0;
+        bool isMirrored = false;
     };
 
     void addPrimitive(const GltfPrimitive& primitive);
-    void addTriangle(std::array<Corner, 3> corners, bool isMirrored);
-    Corner addVertex(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix, double determinant);
+    std::vector<Corner> addVertices(const GltfPrimitive& primitive);
+    Corner addVertex(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix);
+    void addTriangle(std::array<Corner, 3> corners);
 
     const GltfScene& scene_;
     bool takesTexCoords_, takesNormals_;
@@ -66,22 +65,11 @@ private:
 };
 
 void CageBuilder::addPrimitive(const GltfPrimitive& primitive) {
-    const bool isSkinned = scene_.nodes[node_].skin >= 0;
     const std::size_t firstFace = cage.faceCount();
-    std::vector<Corner> vertices(primitive.positions.size());
+    const std::vector<Corner> vertices = addVertices(primitive);
     for (std::size_t i = 0; i + 2 < primitive.triangles.size(); i += 3) {
-        std::array<Corner, 3> corners;
-        bool isMirrored = false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t vertex = primitive.triangles[i + k];
-            const glm::dmat4 matrix = blendedMatrix(primitive, vertex, isSkinned, joints_);
-            const double determinant = glm::determinant(glm::dmat3(matrix));
-            if (k == 0) isMirrored = determinant < 0; // then triangles run the other way round (section 3.7.4)
-            if (vertices[vertex].position == kNone)
-                vertices[vertex] = addVertex(primitive, vertex, matrix, determinant);
-            corners[k] = vertices[vertex];
-        }
-        addTriangle(corners, isMirrored);
+        const std::uint32_t* triangle = &primitive.triangles[i];
+        addTriangle({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
     }
     if (cage.faceCount() == firstFace) return;
     const GltfNode& node = scene_.nodes[node_];
@@ -91,15 +79,28 @@ void CageBuilder::addPrimitive(const GltfPrimitive& primitive) {
                           .faceCount = std::uint32_t(cage.faceCount() - firstFace)});
 }
 
+/// Those that triangles use, in the order of the file.
+std::vector<CageBuilder::Corner> CageBuilder::addVertices(const GltfPrimitive& primitive) {
+    const bool isSkinned = scene_.nodes[node_].skin >= 0;
+    std::vector<bool> isUsed(primitive.positions.size(), false);
+    for (const std::uint32_t vertex : primitive.triangles) isUsed[vertex] = true;
+    std::vector<Corner> corners(isUsed.size());
+    for (std::size_t vertex = 0; vertex < isUsed.size(); ++vertex)
+        if (isUsed[vertex])
+            corners[vertex] = addVertex(primitive, vertex, blendedMatrix(primitive, vertex, isSkinned, joints_));
+    return corners;
+}
+
 /// Vertices that differ only in what a seam or a hard edge splits become one position again.
-CageBuilder::Corner CageBuilder::addVertex(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix,
-                                           double determinant) {
+CageBuilder::Corner CageBuilder::addVertex(const GltfPrimitive& primitive, std::size_t vertex,
+                                           const glm::dmat4& matrix) {
+    const double determinant = glm::determinant(glm::dmat3(matrix));
     const dvec3 morphed = morphedPosition(primitive, vertex, scene_.nodes[node_].weights);
     const vec3 p = withoutNegativeZeros(vec3(dvec3(matrix * glm::dvec4(morphed, 1))));
     const auto [place, isNewPlace] =
         places_.try_emplace({bitsOf(p.x), bitsOf(p.y), bitsOf(p.z)}, std::uint32_t(cage.positions.size()));
     if (isNewPlace) cage.positions.push_back(p);
-    Corner corner{.position = place->second};
+    Corner corner{.position = place->second, .isMirrored = determinant < 0};
     if (takesTexCoords_) {
         const vec2& st = primitive.texCoords[vertex];
         const auto [texCoord, isNewTexCoord] =
@@ -115,13 +116,13 @@ CageBuilder::Corner CageBuilder::addVertex(const GltfPrimitive& primitive, std::
     return corner;
 }
 
-void CageBuilder::addTriangle(std::array<Corner, 3> corners, bool isMirrored) {
-    const auto [a, b, c] = corners;
+void CageBuilder::addTriangle(std::array<Corner, 3> corners) {
+    const auto& [a, b, c] = corners;
     if (a.position == b.position || b.position == c.position || c.position == a.position) {
         ++degenerateCount;
         return;
     }
-    if (isMirrored) std::swap(corners[1], corners[2]);
+    if (a.isMirrored) std::swap(corners[1], corners[2]); // mirrored, triangles run the other way (section 3.7.4)
     cage.faceSizes.push_back(3);
     for (const Corner& corner : corners) {
         cage.corners.push_back(corner.position);
