@@ -101,10 +101,18 @@ struct SkinOptions {
                                ///< very place
 };
 
-/// The skin, the morph targets and the movement of nodes of a glTF file (.gltf, .glb), taken over by a cage: each cage
-/// point from the vertex of the file's meshes (as they stand in bind pose) at the same place. Throws Failure::file and
-/// Failure::input, naming file and element; for a cage point without a vertex at its place it names the point, its
-/// distance to the nearest and --bind-nearest.
+/// The skins, the morph targets and the movement of nodes of a glTF file (.gltf, .glb), taken over by a cage: each cage
+/// point follows the vertex of the file's meshes at the same place, up to 1e-5 of the cage's diagonal. The places of
+/// vertices are those in the world when no animation moves the nodes: what an exporter writes as OBJ from the same
+/// scene. A cage that does not fit them, but the numbers of the meshes themselves (POSITION: in the space of the node,
+/// or in the bind pose of a skin) at every point, is bound by those instead.
+///
+/// A point at its vertex takes over the vertex's place exactly. With bindsNearest it keeps its own: the pose at rest
+/// has the points of the cage, each moved by the joints, weights and morph targets of the nearest vertex.
+///
+/// Vertices of nodes without a skin have one joint, the node. Throws Failure::file and Failure::input, naming file and
+/// element; for a cage point without a vertex at its place it names the point, its distance to the nearest and
+/// --bind-nearest; for a clip that is not there, those that are.
 std::unique_ptr<Animation> readSkin(const std::string& path, const Cage& cage, const SkinOptions& options,
                                     const Warn& warn = warnOnStderr);
 

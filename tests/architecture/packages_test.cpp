@@ -23,6 +23,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glm/glm.hpp", "libglm-dev"},
+    {"tiny_gltf.h", "libtinygltf-dev"},
     {"OpenImageIO/imageio.h", "libopenimageio-dev"},
     {"OpenImageIO", "libopenimageio-dev"},
     {"OpenImageIO_Util", "libopenimageio-dev"},
