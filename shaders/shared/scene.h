@@ -66,6 +66,7 @@ RELIEF_CONSTANT uint kShowFaces = 4u;
 RELIEF_CONSTANT uint kShowWireframe = 5u; // the surface under the lines
 RELIEF_CONSTANT uint kShowLines = 6u;     // the lines themselves
 RELIEF_CONSTANT uint kShowCracks = 7u;    // front faces count up, back faces down: closed surfaces add up to 0
+RELIEF_CONSTANT uint kShowLayers = 8u;    // what layers.comp reads
 
 // --normal
 RELIEF_CONSTANT uint kNormalLimit = 0u;
@@ -140,8 +141,14 @@ struct Scene {
 
 RELIEF_CONSTANT uint kMostMapLevels = 16u;
 
-// What layers.comp leaves of a pixel: distance along the view, unit normal, face of the cage (-1: none), texture
-// coordinates, height, motion.
+// What layers.comp leaves of a pixel, floats in this order: distance along the view (1e10 where nothing is seen), unit normal,
+// face of the cage (-1: none), texture coordinates, height, motion in pixels (x right, y down) since the frame before.
+RELIEF_CONSTANT uint kLayerDepth = 0u;
+RELIEF_CONSTANT uint kLayerNormal = 1u;
+RELIEF_CONSTANT uint kLayerFace = 4u;
+RELIEF_CONSTANT uint kLayerTexCoords = 5u;
+RELIEF_CONSTANT uint kLayerHeight = 7u;
+RELIEF_CONSTANT uint kLayerMotion = 8u;
 RELIEF_CONSTANT uint kLayerChannels = 10u;
 
 #ifdef __cplusplus

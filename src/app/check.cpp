@@ -162,6 +162,7 @@ int check(const CheckArgs& args) {
 Run addCheck(CLI::App& app) {
     auto args = std::make_shared<CheckArgs>();
     addSurface(app, args->surface);
+    addTime(app, args->surface.pose);
     addPath(app, args->triangles.path, "all that the device has");
     addTriangles(app, args->triangles);
     app.add_option("--points", args->pointCount, "points that are compared with the reference, about (200000)")

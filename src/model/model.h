@@ -73,6 +73,8 @@ public:
     [[nodiscard]] const std::vector<float>& faceReaches() const { return faceReaches_; }
     /// Whether heights grow with the surface since a rest pose.
     [[nodiscard]] bool stretches() const { return points_.rest.has_value(); }
+    /// Whether it holds the pose that motion is measured from.
+    [[nodiscard]] bool hasMotion() const { return points_.before != points_.now; }
     /// What edges are on the height map; measured when first asked for (empty then).
     [[nodiscard]] std::vector<EdgeOnMap>& edgesOnMap() const { return edgesOnMap_; }
     [[nodiscard]] const HeightPyramid& heightPyramid() const { return *heightPyramid_; }
