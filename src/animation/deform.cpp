@@ -20,6 +20,7 @@ struct Deformer {
 template <typename Kind>
 std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
     std::vector<std::string> names;
+    names.reserve(kinds.size());
     for (const Kind& kind : kinds) names.push_back(kind.name);
     return names;
 }

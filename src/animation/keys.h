@@ -11,7 +11,7 @@ public:
     virtual ~KeyReader() = default;
     /// What messages call a key: "walk.pc2: frame 101".
     [[nodiscard]] virtual std::string name(std::size_t key) const = 0;
-    /// One position a cage point; that they are finite is checked elsewhere.
+    /// One position a cage point; animateKeys checks that they are finite.
     virtual std::vector<vec3> read(std::size_t key) = 0;
 };
 
