@@ -432,7 +432,7 @@ TEST(Skin, bindsTheNearestVertexAndKeepsThePlaceAtRest) {
     GltfFile file = morphedArm();                       // half a morph at rest
     file.json["nodes"][2]["rotation"] = turnRoundZ(30); // and the elbow bent
     std::vector<vec3> points;
-    for (const dvec3& p : {dvec3(0.1, 0.2, 0.3), dvec3(2, 1.5, 1), dvec3(3, 1, 0), dvec3(-1, 0, 0)})
+    for (const dvec3& p : {dvec3(0.1, 0.2, 1.8), dvec3(2, 1.5, 1), dvec3(3, 1, 0), dvec3(-1, 0, 2)})
         points.emplace_back(p);
     const Skinned skin(file, cageOf(points), {.bindsNearest = true});
     Warnings warnings;
