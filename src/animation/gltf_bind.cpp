@@ -13,6 +13,7 @@ namespace {
 
 static_assert(kMostGltfInfluences == kMostInfluences);
 
+constexpr std::uint64_t kMostOffsets = 1ull << 28;
 constexpr double kTolerance = 1e-5; // of the cage's diagonal: what a number loses in a text of six digits
 
 /// A vertex of a mesh that a node shows.
@@ -33,8 +34,10 @@ std::vector<Source> sourcesOf(const GltfScene& scene) {
 
 // --- which vertex is whose --------------------------------------------------------------------------------------
 
-/// Where all vertices are in the world when nothing moves.
-std::vector<dvec3> restPlaces(const GltfScene& scene, const std::vector<Source>& sources) {
+bool isFinite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// Where all vertices are in the world when nothing moves, to the bit as a cage from this file has them.
+std::vector<dvec3> restPlaces(const GltfScene& scene, const std::vector<Source>& sources, const std::string& path) {
     const std::vector<glm::dmat4> worlds = worldMatrices(scene, restTransforms(scene));
     std::vector<glm::dmat4> joints;
     std::vector<dvec3> places;
@@ -44,7 +47,10 @@ std::vector<dvec3> restPlaces(const GltfScene& scene, const std::vector<Source>&
         if (i == 0 || node != sources[i - 1].node) joints = jointMatrices(scene, node, worlds);
         const glm::dmat4 matrix = blendedMatrix(*primitive, vertex, scene.nodes[node].skin >= 0, joints);
         const dvec3 morphed = morphedPosition(*primitive, vertex, scene.nodes[node].weights);
-        places.emplace_back(vec3(dvec3(matrix * glm::dvec4(morphed, 1)))); // as a cage from this file has them
+        const vec3 place(dvec3(matrix * glm::dvec4(morphed, 1)));
+        if (!isFinite(place))
+            fail(Failure::input, "{}: nodes/{}: its vertex {} does not stand at finite numbers", path, node, vertex);
+        places.emplace_back(place);
     }
     return places;
 }
@@ -104,7 +110,7 @@ Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Sour
     Bounds bounds;
     for (const vec3& p : cage.positions) bounds.add(dvec3(p));
     const double tolerance = kTolerance * bounds.diagonal();
-    Match atRest = matchNearest(cage, restPlaces(scene, sources), true);
+    Match atRest = matchNearest(cage, restPlaces(scene, sources, path), true);
     if (atRest.largestDistance() <= tolerance) return atRest;
     Match inMeshes = matchNearest(cage, meshPlaces(sources), false);
     if (inMeshes.largestDistance() <= tolerance) return inMeshes;
@@ -125,8 +131,8 @@ struct Influences {
 
 class Binder {
 public:
-    Binder(const GltfScene& scene, const std::vector<Source>& sources, const Match& match)
-        : scene_(scene), sources_(sources), match_(match) {}
+    Binder(const GltfScene& scene, const std::vector<Source>& sources, const Match& match, const std::string& path)
+        : scene_(scene), sources_(sources), match_(match), path_(path) {}
 
     /// Joints, weights and morph offsets; rest is the vertices' own.
     GltfBinding bind() {
@@ -147,6 +153,7 @@ private:
     const GltfScene& scene_;
     const std::vector<Source>& sources_;
     const Match& match_;
+    const std::string& path_;
     GltfBinding binding_;
     std::vector<Influences> influences_;
     std::map<std::pair<int, std::uint32_t>, std::uint32_t> joints_; ///< (skin, joint), or (-1, node) without skin
@@ -201,6 +208,9 @@ void Binder::addMorphs() {
     }
     Rig& rig = binding_.rig;
     rig.morphCount = std::uint32_t(binding_.morphs.size());
+    if (rig.morphCount * rig.rest.size() > kMostOffsets)
+        fail(Failure::input, "{}: {} morph targets of {} cage points; together up to {} are possible", path_,
+             rig.morphCount, rig.rest.size(), kMostOffsets);
     rig.morphOffsets.resize(rig.morphCount * rig.rest.size(), vec3(0));
     for (std::size_t point = 0; point < match_.sources.size(); ++point) {
         const auto& [node, primitive, vertex] = sources_[match_.sources[point]];
@@ -231,17 +241,14 @@ std::size_t keepPlaces(const GltfScene& scene, const Cage& cage, GltfBinding& bi
         for (std::size_t i = point * rig.influenceCount; i < (point + 1) * rig.influenceCount; ++i)
             matrix += double(rig.weights[i]) * joints[rig.joints[i]];
         const glm::dmat3 linear(matrix);
-        const dvec3 unmoved = glm::inverse(linear) * (dvec3(cage.positions[point]) - dvec3(matrix[3]));
-        const bool isFlat = glm::determinant(linear) == 0 || !std::isfinite(glm::dot(unmoved, unmoved));
-        if (isFlat) {
-            ++flatCount;
-            continue;
-        }
-        dvec3 rest = unmoved;
+        dvec3 rest = glm::inverse(linear) * (dvec3(cage.positions[point]) - dvec3(matrix[3]));
         for (std::size_t k = 0; k < binding.morphs.size(); ++k)
             rest -= scene.nodes[binding.morphs[k].node].weights[binding.morphs[k].target] *
                     dvec3(rig.morphOffsets[k * rig.rest.size() + point]);
-        rig.rest[point] = vec3(rest);
+        if (isFinite(vec3(rest)))
+            rig.rest[point] = vec3(rest);
+        else
+            ++flatCount;
     }
     return flatCount;
 }
@@ -253,7 +260,7 @@ GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest
     if (cage.positions.empty()) fail(Failure::input, "{}: there is no cage point to bind", path);
     const std::vector<Source> sources = sourcesOf(scene);
     const Match match = matchCage(scene, cage, sources, bindsNearest, path);
-    GltfBinding binding = Binder(scene, sources, match).bind();
+    GltfBinding binding = Binder(scene, sources, match, path).bind();
     if (!bindsNearest) return binding;
     if (!match.isAtRest) {
         binding.rig.rest = cage.positions;

@@ -71,7 +71,6 @@ std::size_t findClip(const std::vector<GltfClip>& clips, const std::string& aske
 std::unique_ptr<Animation> readSkin(const std::string& path, const Cage& cage, const SkinOptions& options,
                                     const Warn& warn) {
     GltfScene scene = readGltf(path, warn);
-    checkHasMesh(scene, path);
     std::optional<std::size_t> clip;
     if (!scene.clips.empty())
         clip = findClip(scene.clips, options.clip, path);

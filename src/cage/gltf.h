@@ -74,7 +74,7 @@ struct GltfClip {
 struct GltfScene {
     std::vector<GltfNode> nodes;
     std::vector<std::uint32_t> order;     ///< all nodes, parents before their children
-    std::vector<std::uint32_t> meshNodes; ///< those of the file's scene that have a mesh; rising
+    std::vector<std::uint32_t> meshNodes; ///< those of the file's scene that have a mesh, at least one; rising
     std::vector<GltfMesh> meshes;
     std::vector<GltfSkin> skins;
     std::vector<GltfClip> clips;
@@ -82,11 +82,9 @@ struct GltfScene {
 
 /// Reads a .gltf with the buffers beside it, or a .glb: by its first bytes, whatever its name. Images are never looked
 /// at. Throws Failure::file when the file or a buffer cannot be read; Failure::input, naming the element, for anything
-/// that is not glTF 2.0, buffers outside the file's folder, and extensions without which it cannot be understood.
+/// that is not glTF 2.0, a scene without a mesh, buffers outside the file's folder, and extensions without which the
+/// file cannot be understood.
 GltfScene readGltf(const std::string& path, const Warn& warn);
-
-/// Throws Failure::input for a file without a mesh in its scene.
-void checkHasMesh(const GltfScene& scene, const std::string& path);
 
 /// Where nodes stand when nothing moves them.
 std::vector<GltfTransform> restTransforms(const GltfScene& scene);

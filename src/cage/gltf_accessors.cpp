@@ -8,7 +8,7 @@
 namespace relief {
 namespace {
 
-constexpr std::uint64_t kMostBytes = 2ull << 30;
+constexpr std::uint64_t kMostNumbers = 1ull << 29;
 
 bool isUnsigned(int componentType) {
     return componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
@@ -115,7 +115,7 @@ GltfAccessors::Layout GltfAccessors::layout(int view, std::uint64_t offset, std:
     return {.first = buffer.data() + bytes.byteOffset + offset, .stride = stride};
 }
 
-const tinygltf::Accessor& GltfAccessors::checked(int index, const GltfUse& use) {
+const tinygltf::Accessor& GltfAccessors::checked(int index, const GltfUse& use) const {
     const std::size_t elements = count(index, use.place);
     const tinygltf::Accessor& accessor = model_.model.accessors[std::size_t(index)];
     if (accessor.type != use.type)
@@ -129,11 +129,13 @@ const tinygltf::Accessor& GltfAccessors::checked(int index, const GltfUse& use) 
                       accessor.componentType);
     if (accessor.bufferView < 0 && !use.count)
         failAtElement(model_.path, use.place, "accessor {} has no buffer view to take its elements from", index);
-    readBytes_ += elements * componentsOf(accessor.type) * sizeof(float);
-    if (readBytes_ > kMostBytes)
-        failAtElement(model_.path, use.place, "with it the file unfolds to more than {}, the most that is read",
-                      humanBytes(kMostBytes));
     return accessor;
+}
+
+void GltfAccessors::checkRoom(std::uint64_t numberCount, const std::string& place) const {
+    if (numberCount_ + numberCount > kMostNumbers)
+        failAtElement(model_.path, place, "with it the file unfolds to more than {} numbers, the most that are read",
+                      kMostNumbers);
 }
 
 /// Some elements in other places than the rest (section 3.6.2.3).
@@ -164,15 +166,16 @@ void GltfAccessors::replaceSparse(const tinygltf::Accessor& accessor, std::vecto
 std::vector<unsigned char> GltfAccessors::elements(int index, const GltfUse& use) {
     const tinygltf::Accessor& accessor = checked(index, use);
     const std::uint64_t elementBytes = componentBytes(accessor.componentType) * componentsOf(accessor.type);
-    std::vector<unsigned char> bytes;
-    if (accessor.bufferView >= 0) {
-        const Layout from = layout(accessor.bufferView, accessor.byteOffset, elementBytes, accessor.count, use.place);
-        bytes.resize(accessor.count * elementBytes);
+    const bool hasBytes = accessor.bufferView >= 0;
+    const Layout from =
+        hasBytes ? layout(accessor.bufferView, accessor.byteOffset, elementBytes, accessor.count, use.place) : Layout{};
+    const std::uint64_t numberCount = accessor.count * componentsOf(accessor.type);
+    checkRoom(numberCount, use.place);
+    numberCount_ += numberCount;
+    std::vector<unsigned char> bytes(accessor.count * elementBytes);
+    if (hasBytes)
         for (std::uint64_t i = 0; i < accessor.count; ++i)
             std::memcpy(&bytes[i * elementBytes], from.first + i * from.stride, elementBytes);
-    } else {
-        bytes.resize(accessor.count * elementBytes);
-    }
     if (accessor.sparse.isSparse) replaceSparse(accessor, bytes, use.place);
     return bytes;
 }

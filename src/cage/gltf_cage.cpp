@@ -145,7 +145,6 @@ std::size_t countPrimitives(const GltfScene& scene, const Has& has) {
 
 Cage readGltfCage(const std::string& path, const Warn& warn) {
     const GltfScene scene = readGltf(path, warn);
-    checkHasMesh(scene, path);
     const std::size_t all = countPrimitives(scene, [](const GltfPrimitive&) { return true; });
     const std::size_t textured = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.texCoords.empty(); });
     const std::size_t shaded = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.normals.empty(); });

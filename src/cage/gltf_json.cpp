@@ -180,6 +180,35 @@ void checkMembers(const Json& value, std::string_view name, const std::string& p
     }
 }
 
+void keepTopMembers(Json& json) {
+    for (auto member = json.begin(); member != json.end();) {
+        const bool isKept =
+            std::find(std::begin(kTopMembers), std::end(kTopMembers), member.key()) != std::end(kTopMembers);
+        member = isKept ? std::next(member) : json.erase(member);
+    }
+}
+
+/// What others may fill as they like.
+void dropForeign(Json& value) {
+    if (value.is_object()) value.erase("extras"), value.erase("extensions");
+    for (Json& member : value)
+        if (member.is_structured()) dropForeign(member);
+}
+
+void checkDepth(std::string_view text, const std::string& path) {
+    int depth = 0;
+    bool isInString = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char letter = text[i];
+        if (isInString && letter == '\\') ++i;
+        if (letter == '"') isInString = !isInString;
+        if (isInString) continue;
+        if (letter == '[' || letter == '{') ++depth;
+        if (letter == ']' || letter == '}') --depth;
+        if (depth > kDeepest) fail(Failure::input, "{}: JSON in more than {} brackets", path, kDeepest);
+    }
+}
+
 /// The message without the library's own name for it.
 std::string_view reasonOf(std::string_view error) { return error.substr(error.find(']') + 1); }
 
@@ -197,21 +226,16 @@ std::string printable(std::string_view text) {
 Json parseGltfJson(std::string_view text, const std::string& path) {
     if (text.size() > kLongest)
         fail(Failure::input, "{}: {} of JSON; up to {} are read", path, humanBytes(text.size()), humanBytes(kLongest));
-    // Members that mean nothing here go before anybody walks through them.
-    const auto keep = [&](int depth, Json::parse_event_t event, const Json& value) {
-        if (depth > kDeepest) fail(Failure::input, "{}: JSON in more than {} brackets", path, kDeepest);
-        if (event != Json::parse_event_t::key) return true;
-        const auto& key = value.get_ref<const std::string&>();
-        if (depth == 1) return std::find(std::begin(kTopMembers), std::end(kTopMembers), key) != std::end(kTopMembers);
-        return key != "extras" && key != "extensions";
-    };
+    checkDepth(text, path);
     Json json;
     try {
-        json = Json::parse(text, keep);
+        json = Json::parse(text);
     } catch (const Json::exception& error) {
         fail(Failure::input, "{}: no valid JSON:{}", path, printable(reasonOf(error.what())));
     }
     if (!json.is_object() || !json.contains("asset")) fail(Failure::input, "{}: has no asset, so it is no glTF", path);
+    keepTopMembers(json);
+    dropForeign(json);
     checkMembers(json, "", "", path);
     return json;
 }

@@ -89,22 +89,30 @@ struct Folder {
     std::uint64_t longest = 0;
 };
 
-/// tinygltf asks for "FOLDER/NAME", then for "./NAME", which an absolute folder never holds.
+/// The buffer's place below the folder. tinygltf asks for "FOLDER/NAME", then for "./NAME", which no absolute folder
+/// holds.
+fs::path placeInside(const std::string& name, const Folder& scene) {
+    const fs::path folder = scene.folder.lexically_normal();
+    fs::path place = fs::path(name).lexically_normal().lexically_relative(folder);
+    if (place.empty() || *place.begin() == ".." || place == ".")
+        fail(Failure::input, "{}: buffer {} does not lie in the file's own folder", scene.path,
+             printable(place.string()));
+    return place;
+}
+
 bool isBuffer(const std::string& name, void* data) {
     const Folder& scene = *static_cast<const Folder*>(data);
-    const fs::path inside = fs::path(name).lexically_normal().lexically_relative(scene.folder);
-    if (inside.empty() || *inside.begin() == ".." || inside == ".")
-        fail(Failure::input, "{}: buffer {} does not lie in the file's own folder", scene.path,
-             printable(fs::path(name).lexically_proximate(scene.folder).string()));
+    const fs::path place = placeInside(name, scene);
     std::error_code error;
-    if (!fs::is_regular_file(name, error))
+    if (!fs::is_regular_file(scene.folder / place, error))
         fail(Failure::file, "{}: buffer {} is not there; it belongs beside the file", scene.path,
-             printable(inside.string()));
+             printable(place.string()));
     return true;
 }
 
 bool readBuffer(std::vector<unsigned char>* out, std::string*, const std::string& name, void* data) {
-    const std::string bytes = readFile(name, static_cast<const Folder*>(data)->longest);
+    const Folder& scene = *static_cast<const Folder*>(data);
+    const std::string bytes = readFile((scene.folder / placeInside(name, scene)).string(), scene.longest);
     out->assign(bytes.begin(), bytes.end());
     return true;
 }
@@ -161,9 +169,8 @@ GltfModel loadGltfModel(const std::string& path) {
     Json json = parseGltfJson(parts.json, path);
     GltfModel result{.path = path, .model = {}, .materials = takeMaterialNames(json)};
 
-    Folder folder{.path = path,
-                  .folder = fs::absolute(path).lexically_normal().parent_path(),
-                  .longest = longestBuffer(json, parts.isBinary, path)};
+    Folder folder{
+        .path = path, .folder = fs::absolute(path).parent_path(), .longest = longestBuffer(json, parts.isBinary, path)};
     tinygltf::TinyGLTF reader;
     reader.SetFsCallbacks({&isBuffer, &unchanged, &readBuffer, nullptr, &folder});
     const std::string text = parts.isBinary ? puTogether(json.dump(), parts.bytes, path) : json.dump();

@@ -94,6 +94,7 @@ void PrimitiveReader::readTriangles(const Warn& warn) {
 }
 
 void PrimitiveReader::readTargets() {
+    accessors_.checkRoom(3 * vertexCount() * from_.targets.size(), placeOf("targets"));
     for (std::size_t k = 0; k < from_.targets.size(); ++k) {
         const int offsets = attributeOf(from_.targets[k], "POSITION");
         if (offsets < 0) {

@@ -48,12 +48,15 @@ public:
     [[nodiscard]] std::vector<float> floats(int accessor, const GltfUse& use);
     /// Unsigned integers of at most `bytes` bytes each.
     [[nodiscard]] std::vector<std::uint32_t> integers(int accessor, const GltfUse& use, int bytes);
+    /// Throws where so many numbers more are too many: accessors of the same bytes, or of none, must not fill the
+    /// memory.
+    void checkRoom(std::uint64_t numberCount, const std::string& place) const;
     /// The number of elements. Throws where there is no such accessor.
     [[nodiscard]] std::size_t count(int accessor, const std::string& place) const;
 
 private:
     struct Layout;
-    [[nodiscard]] const tinygltf::Accessor& checked(int accessor, const GltfUse& use);
+    [[nodiscard]] const tinygltf::Accessor& checked(int accessor, const GltfUse& use) const;
     [[nodiscard]] std::vector<unsigned char> elements(int accessor, const GltfUse& use);
     [[nodiscard]] Layout layout(int view, std::uint64_t offset, std::uint64_t elementBytes, std::uint64_t count,
                                 const std::string& place) const;
@@ -62,7 +65,7 @@ private:
 
     const GltfModel& model_;
     bool isQuantized_;
-    std::uint64_t readBytes_ = 0; ///< so far: many accessors of the same bytes must not fill the memory
+    std::uint64_t numberCount_ = 0; ///< read so far
 };
 
 /// Throws as readGltf.

@@ -184,6 +184,7 @@ void SceneReader::findMeshNodes() {
             fail(Failure::input, "{}: the nodes show more than {} vertices and corners, the most that is read",
                  model_.path, kMostVertices);
     }
+    if (scene_.meshNodes.empty()) fail(Failure::input, "{}: its scene has no mesh", model_.path);
     std::sort(scene_.meshNodes.begin(), scene_.meshNodes.end());
 }
 
@@ -209,10 +210,6 @@ void SceneReader::checkSkin(std::uint32_t index) const {
 GltfScene readGltf(const std::string& path, const Warn& warn) {
     const GltfModel model = loadGltfModel(path);
     return SceneReader(model, warn).read();
-}
-
-void checkHasMesh(const GltfScene& scene, const std::string& path) {
-    if (scene.meshNodes.empty()) fail(Failure::input, "{}: its scene has no mesh", path);
 }
 
 } // namespace relief

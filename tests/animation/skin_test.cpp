@@ -432,7 +432,7 @@ TEST(Skin, bindsTheNearestVertexAndKeepsThePlaceAtRest) {
     GltfFile file = morphedArm();                       // half a morph at rest
     file.json["nodes"][2]["rotation"] = turnRoundZ(30); // and the elbow bent
     std::vector<vec3> points;
-    for (const dvec3& p : {dvec3(0.1, 0.2, 0.3), dvec3(2, 1.5, 1), dvec3(3, 1, 0), dvec3(-1, 0, 0)})
+    for (const dvec3& p : {dvec3(0.1, 0.2, 1.8), dvec3(2, 1.5, 1), dvec3(3, 1, 0), dvec3(-1, 0, 2)})
         points.emplace_back(p);
     const Skinned skin(file, cageOf(points), {.bindsNearest = true});
     Warnings warnings;
@@ -477,6 +477,39 @@ TEST(Skin, aCageFromTheSameFileMatchesExactly) {
     const auto still = readSkin(folder / "still.glb", cage, {}, warnings.warn());
     expectNear(posedPositions(still->rig(), still->pose(0)), asDoubles(cage.positions));
     EXPECT_EQ(still->rig()->rest, animation->rig()->rest);
+}
+
+// --- what is refused (broken files: tests/cage/gltf_errors_test.cpp) ----------------------------------------------
+
+TEST(Skin, numbersThatMultiplyPastAllFloatsAreRefused) {
+    GltfFile file = rigid();
+    file.json["nodes"][0]["scale"] = {1e200, 1e200, 1e200};
+    file.json["nodes"][1]["scale"] = {1e200, 1e200, 1e200};
+    expectFailure(Failure::input, {"a.gltf", "nodes/1", "vertex 0", "finite"}, [&] { Skinned(file, rigidCage()); });
+
+    GltfFile late = rigid();
+    const int times = late.add(std::vector<float>{0, 1});
+    const int scales = late.add(std::vector<vec3>{{1, 1, 1}, {1e30f, 1, 1}});
+    late.addChannel(0, "scale", times, scales);
+    late.addChannel(1, "scale", times, scales);
+    const Skinned skin(late, rigidCage());
+    EXPECT_EQ(skin.at(0)[1], vec3(1, 0, 1));
+    expectFailure(Failure::input, {"a.gltf", "node 1", "at 1 s"}, [&] { return skin.at(1); });
+}
+
+TEST(Skin, targetsOfManyNodesDoNotFillTheMemory) {
+    GltfFile file;
+    file.addMesh(kCorners, {0, 1, 2});
+    Json targets = Json::array();
+    for (int i = 0; i < 1000; ++i) targets.push_back(Json::object());
+    file.json["meshes"][0]["primitives"][0]["targets"] = targets;
+    Cage cage;
+    for (int i = 0; i < 1000; ++i) {
+        file.addNode({{"mesh", 0}, {"translation", {0, 0, i}}});
+        for (const vec3& p : kCorners) cage.positions.push_back(p + vec3(0, 0, i));
+    }
+    expectFailure(Failure::input, {"a.gltf", "1000000 morph targets of 3000 cage points"},
+                  [&] { Skinned(file, cage, {}, [](const std::string&) {}); });
 }
 
 TEST(Skin, posesAreTheSameBitsInAnyOrder) {

@@ -96,7 +96,7 @@ TEST(GltfErrors, membersOfWrongTypes) {
     expectRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0]["indices"] = true; },
                   {"primitives/0/indices"});
     expectRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {"a"}; }, {"scenes/0/nodes"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"] = 3; }, {"must be", "target"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"] = 3; }, {"animations/0"});
 }
 
 TEST(GltfErrors, membersThatAreMissing) {
@@ -282,7 +282,7 @@ TEST(GltfErrors, filesThatUnfold) {
     Json targets = Json::array();
     for (int i = 0; i < 20'000; ++i) targets.push_back({{"POSITION", 2}});
     file.json["meshes"][0]["primitives"][0]["targets"] = targets;
-    expectRefusedBytes(file.gltf(), {"targets/", "unfolds"});
+    expectRefusedBytes(file.gltf(), {"targets", "unfolds"});
     file.json["meshes"][0]["primitives"][0].erase("targets");
     for (int i = 0; i < 20'000; ++i) file.addNode({{"mesh", 0}});
     expectRefusedBytes(file.gltf(), {"vertices and corners"});
@@ -318,7 +318,7 @@ TEST(GltfErrors, buffersOfAnotherLength) {
     expectUriRefused(Failure::input, header + base64(bytes + "1234"), {"no valid glTF"});
     expectUriRefused(Failure::input, header + base64(bytes.substr(4)), {"no valid glTF"});
     expectUriRefused(Failure::input, header + "////%%%%", {"no valid glTF"});
-    expectUriRefused(Failure::input, "data:,", {});
+    expectUriRefused(Failure::file, "data:,", {"data:,"});
     const TemporaryFolder folder;
     Json json = triangle().json;
     json["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", "a.bin"}};
@@ -374,7 +374,7 @@ TEST(GltfErrors, binaryFilesWithOtherLetters) {
     const std::string file = rich().glb();
     std::mt19937 random(7);
     std::size_t refused = 0;
-    for (std::size_t i = 0; i < 3000; ++i) {
+    for (std::size_t i = 0; i < 300; ++i) {
         std::string spoiled = file;
         constexpr std::string_view kLetters = "0123456789-.eE\"{}[]:,\\ntfu\x01\xff ";
         for (std::size_t flips = 0; flips <= i % 3; ++flips)
@@ -382,7 +382,7 @@ TEST(GltfErrors, binaryFilesWithOtherLetters) {
         putFile(folder / "a.glb", spoiled);
         refused += isRead(folder / "a.glb") ? 0 : 1;
     }
-    EXPECT_GT(refused, 1000u);
+    EXPECT_GT(refused, 100u);
 }
 
 } // namespace
