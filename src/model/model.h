@@ -274,12 +274,23 @@ struct CapturedMesh {
     std::vector<std::uint32_t> indices; ///< three a triangle
 };
 
-/// Tessellation: by transform feedback (Failure::usage where the device has none); grid: stored by the vertex shader;
-/// dice: read back.
-CapturedMesh captureTriangles(Device& device, const Model& model, const TriangleOptions& options,
-                              const EdgeRates& rates);
+/// Reads triangles back. Shaders are compiled once for a kind of model.
+class Capturer {
+public:
+    explicit Capturer(Device& device);
+    ~Capturer();
 
-/// How many triangles captureTriangles has to find.
+    /// Tessellation: by transform feedback (Failure::usage where the device has none); grid: stored by the vertex
+    /// shader; dice: read back.
+    CapturedMesh capture(const Model& model, const TriangleOptions& options, const EdgeRates& rates);
+
+    struct Parts;
+
+private:
+    std::unique_ptr<Parts> parts_;
+};
+
+/// How many triangles a Capturer has to find.
 std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates);
 
 /// Segments of all edges of the cage that have one drawn face.

@@ -6,8 +6,6 @@
 namespace relief::test {
 namespace {
 
-const fs::path kProject = RELIEF_SOURCE;
-
 /// What CMake looks for, by the words it looks with, and the Debian package that brings it.
 const std::map<std::string, std::string> kPackageOf = {
     {"OpenSubdivFar", "libosd-dev"},
