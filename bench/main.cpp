@@ -1,6 +1,5 @@
-// relief_bench: the same displaced triangles drawn by each path and as a static dense mesh, in one run; what splitting
-// draws is worth on this device; what a cold start costs; the dicer next to other evaluators. Absolute times are noise
-// between runs: quote the ratios.
+// relief_bench, for developers: what splitting draws is worth on this device; the dicer next to other evaluators.
+// Absolute times are noise between runs: quote the ratios. Everything else is `relief bench`.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -8,10 +7,6 @@
 #include <functional>
 #include <iostream>
 #include <thread>
-
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "frame/frame.h"
 #include "timing.h"
@@ -24,7 +19,6 @@ namespace {
 
 using namespace relief;
 using bench::median;
-using bench::millisecondsOf;
 
 constexpr int kRounds = 7;
 constexpr std::uint64_t kTriangles = 1'000'000;
@@ -69,61 +63,6 @@ struct Subject {
         options.rate = rate;
     }
 };
-
-struct Series {
-    const char* name;
-    const Model* model;
-    Path path;
-    std::vector<double> device, wall, dice;
-    std::uint64_t triangles = 0;
-};
-
-/// Interleaved rounds, so that a slow spell of the machine hits all alike.
-void measure(Renderer& renderer, const RenderOptions& base, std::vector<Series>& all) {
-    for (int round = 0; round <= kRounds; ++round)
-        for (Series& series : all) {
-            RenderOptions options = base;
-            options.path = series.path;
-            const Picture picture = renderer.render(*series.model, options);
-            if (round == 0) continue; // compiles the shaders
-            series.device.push_back(picture.stats.diceMs + picture.stats.colorMs);
-            series.dice.push_back(picture.stats.diceMs);
-            series.wall.push_back(picture.stats.wallMs);
-            series.triangles = picture.stats.triangleCount;
-        }
-}
-
-void print(const std::vector<Series>& all) {
-    const Series& base = all.back();
-    for (const Series& series : all)
-        std::cout << fmt::format("{:28} {:9} triangles  color pass {:8.1f} ms  {:5.2f} x   frame {:8.1f} ms  {:5.2f} x "
-                                 "  dicing {:6.1f} ms\n",
-                                 series.name, series.triangles, median(series.device),
-                                 median(series.device) / median(base.device), median(series.wall),
-                                 median(series.wall) / median(base.wall), median(series.dice));
-}
-
-int benchFrame() {
-    Subject subject;
-    Device device;
-    const Model displaced(
-        device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
-    const DenseMesh mesh = denseMesh(subject.reference, &subject.map, subject.rate);
-    const Model dense(device, {.dense = &mesh});
-    Renderer renderer(device, {});
-    std::cout << fmt::format("frame: {} at rate {}, 1024 x 1024, 4 samples, full normals, {} on {}\n", subject.path,
-                             subject.rate, "2048 x 2048 float map", device.traits().name);
-    std::vector<Series> all;
-    if (device.traits().hasTessellation) all.push_back({"tessellation", &displaced, Path::tessellation, {}, {}});
-    all.push_back({"grid", &displaced, Path::grid, {}, {}});
-    all.push_back({"dicing and its draw", &displaced, Path::dice, {}, {}});
-    all.push_back({"static dense mesh", &dense, Path::grid, {}, {}});
-    measure(renderer, subject.options, all);
-    print(all);
-    std::cout << fmt::format("on the device: cage + map {}, dense mesh {}\n", humanBytes(displaced.byteCount()),
-                             humanBytes(dense.byteCount()));
-    return 0;
-}
 
 /// One contestant of `dice`: what it makes, how much of it, and how long that takes.
 struct Contestant {
@@ -249,64 +188,6 @@ int benchSplit() {
     return 0;
 }
 
-/// Runs the command line of relief with an empty shader cache; returns wall milliseconds and peak memory in KiB.
-std::pair<double, long> coldRun(const std::vector<std::string>& words) {
-    rusage usage{};
-    int status = 0;
-    const double ms = millisecondsOf([&] {
-        const pid_t child = fork();
-        if (child == 0) {
-            setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
-            std::vector<char*> arguments;
-            for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-            arguments.push_back(nullptr);
-            execv(RELIEF_BINARY, arguments.data());
-            _exit(127);
-        }
-        wait4(child, &status, 0, &usage);
-    });
-    if (status != 0) fail(Failure::internal, "{} ended with status {}", words[0], status);
-    return {ms, usage.ru_maxrss};
-}
-
-/// A whole `relief render` with nothing cached against the warm frame that it contains.
-int benchCold() {
-    const Subject subject;
-    const std::string folder =
-        (std::filesystem::temp_directory_path() / fmt::format("relief_bench_{}", getpid())).string();
-    std::filesystem::create_directories(folder);
-    const std::string map = folder + "/map.exr", picture = folder + "/picture.png";
-    writeImage(map, {subject.map.width, subject.map.height, 1, subject.map.texels}, SampleType::real);
-
-    std::vector<double> cold, warm, tables;
-    long peak = 0;
-    for (int round = 0; round < 5; ++round) {
-        const auto [ms, kib] =
-            coldRun({"relief", "render", subject.path, "--height", map, "--scale", fmt::format("{}", subject.map.scale),
-                     "--edge-pixels", "4", "-q", "-o", picture});
-        cold.push_back(ms);
-        peak = std::max(peak, kib);
-        Device device;
-        tables.push_back(1e3 * buildSurface(subject.cage, {}).tableSeconds);
-        const Model model(
-            device, {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
-        Renderer renderer(device, {});
-        RenderOptions options = subject.options;
-        options.rate.reset();
-        options.edgePixels = 4;
-        options.lighting.castsShadows = true;
-        renderer.render(model, options);
-        warm.push_back(renderer.render(model, options).stats.wallMs);
-    }
-    std::filesystem::remove_all(folder);
-    std::cout << fmt::format(
-        "cold: whole relief render {:.0f} ms, warm frame {:.0f} ms, OpenSubdiv's tables {:.0f} ms: "
-        "(render - tables) / frame = {:.2f}; peak memory {}\n",
-        median(cold), median(warm), median(tables), (median(cold) - median(tables)) / median(warm),
-        humanBytes(std::uint64_t(peak) * 1024));
-    return 0;
-}
-
 } // namespace
 
 int main(int argc, char** argv) {
@@ -315,13 +196,11 @@ int main(int argc, char** argv) {
         const auto runs = [&](const char* name) {
             return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
         };
-        if (runs("frame")) benchFrame();
         if (runs("dice")) benchDice();
 #ifdef RELIEF_EVALUATORS
         if (runs("posing")) bench::benchPosing();
 #endif
         if (runs("split")) benchSplit();
-        if (runs("cold")) benchCold();
         return 0;
     } catch (const relief::Error& error) {
         std::cerr << "relief_bench: " << error.what() << '\n';

@@ -1,7 +1,8 @@
 // A height map and its albedo map, painted together.
 #pragma once
 
-#include "atlas.h"
+#include "bake/bake.h"
+#include "cage_builder.h"
 #include "noise.h"
 
 namespace relief::meshes {

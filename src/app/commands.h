@@ -16,6 +16,7 @@ Run addAnimate(CLI::App& app);
 Run addExport(CLI::App& app);
 Run addSample(CLI::App& app);
 Run addCheck(CLI::App& app);
+Run addBench(CLI::App& app);
 Run addInfo(CLI::App& app);
 
 } // namespace relief::app

@@ -25,6 +25,7 @@ constexpr Command kCommands[] = {
     {"export", "the displaced triangles as a mesh", app::addExport},
     {"sample", "the device's own frames at given points of the surface", app::addSample},
     {"check", "certificate: watertight, exact, one-to-one", app::addCheck},
+    {"bench", "what displacement costs and saves, against dense meshes", app::addBench},
     {"info", "what a file holds; what the devices can do", app::addInfo},
 };
 

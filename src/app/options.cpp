@@ -117,16 +117,20 @@ Warn Output::warn() const {
 }
 
 void addOutput(CLI::App& app, Output& output) {
-    static const std::map<std::string, ShowProgress> words{
-        {"auto", ShowProgress::automatic}, {"always", ShowProgress::always}, {"never", ShowProgress::never}};
     const char* group = "output";
     app.add_flag("--json", output.isJson, "print the result as JSON on stdout")->group(group);
     app.add_flag("-q,--quiet", output.isQuiet, "no warnings, no summary")->group(group);
     app.add_flag("-v,--verbose", output.isVerbose, "times of every step")->group(group);
-    const auto choose = [&output](const std::string& word) { output.progress = words.at(word); };
+    addProgress(app, output.progress);
+}
+
+void addProgress(CLI::App& app, ShowProgress& progress) {
+    static const std::map<std::string, ShowProgress> words{
+        {"auto", ShowProgress::automatic}, {"always", ShowProgress::always}, {"never", ShowProgress::never}};
+    const auto choose = [&progress](const std::string& word) { progress = words.at(word); };
     listed(app.add_option_function<std::string>("--progress", choose, "auto, always or never")
                ->check(CLI::IsMember({"auto", "always", "never"})),
-           "WHEN", group);
+           "WHEN", "output");
 }
 
 void addSurface(CLI::App& app, SurfaceArgs& args) {

@@ -71,6 +71,7 @@ struct PictureArgs {
 };
 
 void addOutput(CLI::App& app, Output& output);
+void addProgress(CLI::App& app, ShowProgress& progress);
 void addSurface(CLI::App& app, SurfaceArgs& args);
 void addSurfaceOptions(CLI::App& app, SurfaceArgs& args); ///< the same without the cage itself
 void addTime(CLI::App& app, PoseArgs& args);              ///< for verbs that take one pose

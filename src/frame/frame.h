@@ -85,6 +85,7 @@ struct RenderOptions : TriangleOptions {
     Bounds bounds; ///< of the object: what the shadow map covers
     std::vector<Layer> layers;
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
+    bool countsPipeline = false;
 };
 
 struct FrameStats {
@@ -94,7 +95,8 @@ struct FrameStats {
     std::uint32_t drawCount = 0, maxRate = 0;
     /// On the device; 0 where it cannot time.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
-    double wallMs = 0; ///< rates to pixels on the host
+    double wallMs = 0;       ///< rates to pixels on the host
+    PipelineCounts pipeline; ///< of the color pass, where RenderOptions asks for it and the device can
 };
 
 /// Linear light, premultiplied alpha; for Show other than shaded, colors to be seen as they are.

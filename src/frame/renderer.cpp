@@ -250,13 +250,16 @@ Picture Renderer::render(const Model& model, const RenderOptions& options) {
         parts.timer.stamp(commands);
         if (castsShadows) parts.shadowPass(commands, frame);
         parts.timer.stamp(commands);
+        if (options.countsPipeline) parts.counter.begin(commands);
         parts.colorPass(commands, frame);
+        if (options.countsPipeline) parts.counter.end(commands);
         parts.timer.stamp(commands);
         parts.lightPass(commands, frame);
         parts.timer.stamp(commands);
     });
     const std::vector<double> times = parts.timer.intervals();
     if (times.size() == 3) stats.shadowMs = times[0], stats.colorMs = times[1], stats.lightMs = times[2];
+    if (options.countsPipeline) stats.pipeline = parts.counter.counts();
     const auto* halves = static_cast<const std::uint16_t*>(parts.targets.picture.mapped);
     picture.width = parts.desc.width;
     picture.height = parts.desc.height;

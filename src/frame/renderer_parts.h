@@ -31,7 +31,8 @@ struct Renderer::Parts {
           nearest(makeSampler(device, {.filter = VK_FILTER_NEAREST,
                                        .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                        .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-          noWords(uploadWords(device, "nothing", {})), timer(device, 8), rater(device), dicer(device) {}
+          noWords(uploadWords(device, "nothing", {})), timer(device, 8), counter(device), rater(device), dicer(device) {
+    }
 
     Device& device;
     RendererDesc desc;
@@ -40,6 +41,7 @@ struct Renderer::Parts {
     Owned<VkSampler> repeating, clamped, around, nearest;
     TexelBuffer noWords;
     Timer timer;
+    PipelineCounter counter;
     EdgeRater rater;
     Dicer dicer;
     std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart

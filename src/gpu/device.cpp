@@ -120,6 +120,7 @@ DeviceTraits traitsOf(VkPhysicalDevice physical) {
     traits.maxTexelBufferElements = limits.maxTexelBufferElements;
     traits.maxImageSide = limits.maxImageDimension2D;
     traits.maxDrawIndirectCount = features.multiDrawIndirect == VK_TRUE ? limits.maxDrawIndirectCount : 1;
+    traits.countsPipeline = features.pipelineStatisticsQuery == VK_TRUE;
     traits.timestampNanoseconds = limits.timestampComputeAndGraphics == VK_TRUE ? limits.timestampPeriod : 0;
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
         if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
@@ -259,6 +260,7 @@ void Device::makeDevice() {
     use.base.features.multiDrawIndirect = has.multiDrawIndirect;
     use.base.features.drawIndirectFirstInstance = has.drawIndirectFirstInstance;
     use.base.features.shaderInt64 = has.shaderInt64;
+    use.base.features.pipelineStatisticsQuery = has.pipelineStatisticsQuery;
     use.base.features.vertexPipelineStoresAndAtomics = has.vertexPipelineStoresAndAtomics;
     // Optional: how certificates read tessellated triangles back.
     VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback{
@@ -340,6 +342,7 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& needs, VkMemoryPrope
     VkDeviceMemory memory = VK_NULL_HANDLE;
     checkVulkan(vkAllocateMemory(device_, &info, nullptr, &memory), "vkAllocateMemory");
     allocatedBytes_ += needs.size;
+    peakBytes_ = std::max(peakBytes_, allocatedBytes_);
     return memory;
 }
 

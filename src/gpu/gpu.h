@@ -39,6 +39,7 @@ struct DeviceTraits {
     /// flush, so its time grows with the square (`relief_bench split` measures it); other devices want one large draw.
     std::uint32_t tessellatedVerticesPerDraw = 0xffffffffu;
     float timestampNanoseconds = 0; ///< 0 where the queue cannot time
+    bool countsPipeline = false;    ///< pipeline statistics
 };
 
 /// One line a device, without making it the current one.
@@ -58,6 +59,9 @@ public:
     [[nodiscard]] const std::vector<std::string>& validationMessages() const { return *messages_; }
     /// Bytes of device memory that are allocated now.
     [[nodiscard]] std::uint64_t allocatedBytes() const { return allocatedBytes_; }
+    /// The most that there were at once since startPeak().
+    [[nodiscard]] std::uint64_t peakBytes() const { return peakBytes_; }
+    void startPeak() { peakBytes_ = allocatedBytes_; }
 
     /// Records with `record`, submits and waits.
     void run(const std::function<void(VkCommandBuffer)>& record);
@@ -86,7 +90,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceTraits traits_;
     std::unique_ptr<std::vector<std::string>> messages_ = std::make_unique<std::vector<std::string>>();
-    std::uint64_t allocatedBytes_ = 0;
+    std::uint64_t allocatedBytes_ = 0, peakBytes_ = 0;
     bool isValidating_ = false;
 };
 
@@ -267,6 +271,28 @@ private:
     Device* device_;
     Owned<VkQueryPool> pool_;
     std::uint32_t count_ = 0, capacity_;
+};
+
+/// What the stages of draws were called for.
+struct PipelineCounts {
+    std::uint64_t vertices = 0, primitives = 0; ///< that draws named
+    std::uint64_t vertexCalls = 0, tessellationPatches = 0, tessellationCalls = 0;
+    std::uint64_t drawnPrimitives = 0; ///< after clipping
+    std::uint64_t fragmentCalls = 0;
+};
+
+/// Counts draws between begin and end, both outside of vkCmdBeginRendering. Does nothing where the device cannot.
+class PipelineCounter {
+public:
+    explicit PipelineCounter(Device& device);
+    void begin(VkCommandBuffer commands) const;
+    void end(VkCommandBuffer commands) const;
+    /// After the commands are done; zeros where the device cannot count.
+    [[nodiscard]] PipelineCounts counts() const;
+
+private:
+    Device* device_;
+    Owned<VkQueryPool> pool_;
 };
 
 } // namespace relief

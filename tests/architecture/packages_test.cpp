@@ -18,6 +18,8 @@ const std::map<std::string, std::string> kPackageOf = {
     {"Threads", "build-essential"},
     {"OpenMP", "build-essential"},
     {"embree", "libembree-dev"},
+    {"draco", "libdraco-dev"},
+    {"meshoptimizer", "libmeshoptimizer-dev"},
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glm/glm.hpp", "libglm-dev"},

@@ -1,24 +1,12 @@
-// Painting a texture by points of the surface: every texel learns which point of the limit surface it covers, texels
-// just outside an island included, so that both sides of a seam agree whatever is painted.
-#pragma once
-
-#include <array>
+#include <algorithm>
 #include <set>
 
-#include "cage_builder.h"
-#include "surface/surface.h"
+#include "bake/bake.h"
 
-namespace relief::meshes {
+namespace relief {
+namespace {
 
-/// What a texel covers. Beyond an island's border everything continues linearly.
-struct SurfacePoint {
-    int face = 0;     ///< of the cage, which has quads only
-    dvec2 uv{0};      ///< face coordinates
-    dvec2 st{0};      ///< texture coordinates
-    dvec3 p{0}, n{0}; ///< limit position and normal
-};
-
-inline SurfacePoint mix3(const std::array<SurfacePoint, 3>& c, const dvec3& w) {
+SurfacePoint mix3(const std::array<SurfacePoint, 3>& c, const dvec3& w) {
     SurfacePoint r = c[0];
     r.uv = w.x * c[0].uv + w.y * c[1].uv + w.z * c[2].uv;
     r.st = w.x * c[0].st + w.y * c[1].st + w.z * c[2].st;
@@ -27,39 +15,14 @@ inline SurfacePoint mix3(const std::array<SurfacePoint, 3>& c, const dvec3& w) {
     return r;
 }
 
-class Atlas {
-public:
-    using Painter = std::function<void(int x, int y, const SurfacePoint&)>;
-    Atlas(const Cage& cage, int width, int height) : surface_(cage, {}), width_(width), height_(height) {
-        findSeams(cage);
-    }
+} // namespace
 
-    /// Calls `paint` once for every texel inside an island or within a few texels of its border.
-    void forEachTexel(const Painter& paint);
-    /// Spreads values from painted texels over the rest of the image, nearest first, so that coarse mips stay clean.
-    void spread(Image& image) const;
-    [[nodiscard]] const ReferenceSurface& surface() const { return surface_; }
-
-private:
-    static constexpr int kSteps = 8;       ///< samples along a face's side
-    static constexpr double kMargin = 3.5; ///< texels painted beyond a border
-    static constexpr int kSpan = kSteps + 3;
-    using Samples = std::array<SurfacePoint, kSpan * kSpan>; ///< with one row beyond each side
-
-    void findSeams(const Cage& cage);
-    [[nodiscard]] Samples sampleFace(int face) const;
-    [[nodiscard]] SurfacePoint beyond(const SurfacePoint& border, const SurfacePoint& inner) const;
-    void paintCell(const Samples& samples, int i, int j, const Painter& paint);
-    void paintTriangle(const std::array<SurfacePoint, 3>& corners, const Painter& paint);
-
-    ReferenceSurface surface_;
-    int width_, height_;
-    std::vector<std::array<bool, 4>> hasSeam_; ///< by face and side
-    std::vector<bool> isPainted_;
-};
+Atlas::Atlas(const Cage& cage, int width, int height) : surface_(cage, {}), width_(width), height_(height) {
+    findSeams(cage);
+}
 
 /// A side is a seam unless another face runs the same texture coordinates the other way.
-inline void Atlas::findSeams(const Cage& cage) {
+void Atlas::findSeams(const Cage& cage) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> runs;
     auto corner = [&](std::size_t face, std::size_t i) { return cage.texCorners[4 * face + i % 4]; };
     for (std::size_t face = 0; face < cage.faceCount(); ++face)
@@ -69,13 +32,13 @@ inline void Atlas::findSeams(const Cage& cage) {
         for (std::size_t i = 0; i < 4; ++i) hasSeam_[face][i] = !runs.contains({corner(face, i + 1), corner(face, i)});
 }
 
-inline SurfacePoint Atlas::beyond(const SurfacePoint& border, const SurfacePoint& inner) const {
+SurfacePoint Atlas::beyond(const SurfacePoint& border, const SurfacePoint& inner) const {
     dvec2 texels = (border.st - inner.st) * dvec2(width_, height_);
     double reach = kMargin / std::max(1e-6, glm::length(texels));
     return mix3({border, inner, border}, {1 + reach, -reach, 0});
 }
 
-inline Atlas::Samples Atlas::sampleFace(int face) const {
+Atlas::Samples Atlas::sampleFace(int face) const {
     Samples samples;
     auto at = [&](int i, int j) -> SurfacePoint& { return samples[(j + 1) * kSpan + i + 1]; };
     for (int j = 0; j <= kSteps; ++j)
@@ -94,7 +57,7 @@ inline Atlas::Samples Atlas::sampleFace(int face) const {
     return samples;
 }
 
-inline void Atlas::paintTriangle(const std::array<SurfacePoint, 3>& c, const Painter& paint) {
+void Atlas::paintTriangle(const std::array<SurfacePoint, 3>& c, const Painter& paint) {
     std::array<dvec2, 3> t;
     for (int i = 0; i < 3; ++i) t[i] = dvec2(c[i].st.x * width_, (1 - c[i].st.y) * height_) - 0.5;
     auto cross = [](dvec2 a, dvec2 b) { return a.x * b.y - a.y * b.x; };
@@ -113,13 +76,13 @@ inline void Atlas::paintTriangle(const std::array<SurfacePoint, 3>& c, const Pai
         }
 }
 
-inline void Atlas::paintCell(const Samples& samples, int i, int j, const Painter& paint) {
+void Atlas::paintCell(const Samples& samples, int i, int j, const Painter& paint) {
     auto at = [&](int di, int dj) { return samples[(j + dj + 1) * kSpan + i + di + 1]; };
     paintTriangle({at(0, 0), at(1, 0), at(1, 1)}, paint);
     paintTriangle({at(0, 0), at(1, 1), at(0, 1)}, paint);
 }
 
-inline void Atlas::forEachTexel(const Painter& paint) {
+void Atlas::forEachTexel(const Painter& paint) {
     isPainted_.assign(std::size_t(width_) * height_, false);
     for (int face = 0; face < surface_.faceCount(); ++face) {
         Samples samples = sampleFace(face);
@@ -140,7 +103,7 @@ inline void Atlas::forEachTexel(const Painter& paint) {
     }
 }
 
-inline void Atlas::spread(Image& image) const {
+void Atlas::spread(Image& image) const {
     std::vector<bool> isFilled = isPainted_;
     std::vector<ivec2> front, next;
     for (int y = 0; y < height_; ++y)
@@ -159,4 +122,4 @@ inline void Atlas::spread(Image& image) const {
             }
 }
 
-} // namespace relief::meshes
+} // namespace relief

@@ -1,0 +1,94 @@
+#include "measure/contest.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relief {
+
+Contest::Contest(Device& device, const Subject& subject, double triangles, std::size_t sampleCount)
+    : device_(device), subject_(subject), dicer_(device), diagonal_(diagonalOf(subject.cage)),
+      sampleCount_(sampleCount) {
+    const double perFace = subject.surface.scheme == Scheme::loop ? 1 : 2;
+    const double faces = perFace * double(surface(subject.surface.isolation).faces.size());
+    const auto rateFor = [&](double count) { return std::max(1, int(std::lround(std::sqrt(count / faces)))); };
+    largestRate_ = std::max(2, rateFor(2 * triangles));
+    referenceRate_ = 2 * rateFor(triangles);
+    Saving best = everything();
+    best.rate = referenceRate_;
+    referenceMesh_ = mesh(best);
+    reference_.emplace(TriangleView{referenceMesh_.positions, referenceMesh_.indices}, sampleCount);
+}
+
+Saving Contest::everything() const {
+    return {subject_.surface.isolation, subject_.height.width, MapFormat::real, largestRate_};
+}
+
+std::vector<int> Contest::sides() const {
+    std::vector<int> sides;
+    for (double side = subject_.height.width; side >= 16; side /= std::sqrt(2.0))
+        sides.push_back(int(std::lround(side)));
+    std::ranges::reverse(sides);
+    return sides;
+}
+
+const Surface& Contest::surface(int isolation) {
+    const auto found = surfaces_.find(isolation);
+    if (found != surfaces_.end()) return found->second;
+    SurfaceOptions options = subject_.surface;
+    options.isolation = isolation;
+    return surfaces_.emplace(isolation, buildSurface(subject_.cage, options)).first->second;
+}
+
+const HeightMap& Contest::map(int side, MapFormat format) {
+    const auto found = maps_.find({side, format});
+    if (found != maps_.end()) return found->second;
+    const HeightMap& whole = subject_.height;
+    const int rows = std::max(1, int(std::lround(double(side) * whole.height / whole.width)));
+    HeightMap map =
+        format == MapFormat::real ? resampled(whole, side, rows) : decodedMap(this->map(side, MapFormat::real), format);
+    return maps_.emplace(std::pair(side, format), std::move(map)).first->second;
+}
+
+std::unique_ptr<Model> Contest::model(const Saving& saving) {
+    return std::make_unique<Model>(device_, ModelDesc{.surface = &surface(saving.isolation),
+                                                      .cagePositions = subject_.cage.positions,
+                                                      .height = &map(saving.side, saving.format)});
+}
+
+DenseMesh Contest::mesh(const Saving& saving) {
+    const std::unique_ptr<Model> on = model(saving);
+    return dicer_.diceToHost(*on, exactRates(*on, saving.rate), {.wantsTexCoords = subject_.cage.hasTexCoords()});
+}
+
+MeshError Contest::errorOf(const DenseMesh& mesh) const {
+    const MeasuredSurface measured({mesh.positions, mesh.indices}, sampleCount_);
+    const SurfaceDistance distance = measureDistance(measured, *reference_);
+    return {.rms = distance.rms() / diagonal_, .hausdorff = distance.hausdorff() / diagonal_};
+}
+
+const Contest::Judged& Contest::judged(const Saving& saving) {
+    const auto found = judged_.find(saving);
+    if (found != judged_.end()) return found->second;
+    const DenseMesh made = mesh(saving);
+    return judged_.emplace(saving, Judged{errorOf(made), {made.positions.size(), made.indices.size() / 3}})
+        .first->second;
+}
+
+const MeshError& Contest::errorOf(const Saving& saving) { return judged(saving).error; }
+const MeshCounts& Contest::countsOf(const Saving& saving) { return judged(saving).counts; }
+
+std::uint64_t Contest::surfaceBytes(int isolation) {
+    std::uint64_t& bytes = surfaceBytes_[isolation];
+    if (bytes == 0)
+        bytes = Model(device_, {.surface = &surface(isolation), .cagePositions = subject_.cage.positions}).byteCount();
+    return bytes;
+}
+
+double Contest::formatError(int side, MapFormat format) {
+    const HeightMap &from = map(side, MapFormat::real), &to = map(side, format);
+    double sum = 0;
+    for (std::size_t i = 0; i < from.texels.size(); ++i) sum += std::pow(double(to.texels[i]) - from.texels[i], 2.0);
+    return std::abs(from.scale) * std::sqrt(sum / double(from.texels.size())) / diagonal_;
+}
+
+} // namespace relief

@@ -1,0 +1,66 @@
+// Internal: how far meshes, and surfaces of smaller maps, are from the reference surface of one subject.
+#pragma once
+
+#include "measure/parts.h"
+
+namespace relief {
+
+struct MeshError {
+    double rms = 0, hausdorff = 0; ///< fractions of the diagonal of the cage's bounding box
+};
+
+/// A displaced surface in fewer bytes: what can be saved at.
+struct Saving {
+    int isolation = 6, side = 0; ///< `side`: columns of the map; rows in proportion
+    MapFormat format = MapFormat::real;
+    int rate = 1;
+
+    auto operator<=>(const Saving&) const = default;
+};
+
+/// The reference is the displaced surface itself at four times the triangles of the largest mesh that is judged.
+class Contest {
+public:
+    Contest(Device& device, const Subject& subject, double triangles, std::size_t sampleCount);
+
+    [[nodiscard]] const Subject& subject() const { return subject_; }
+    [[nodiscard]] const DenseMesh& reference() const { return referenceMesh_; }
+    [[nodiscard]] int referenceRate() const { return referenceRate_; }
+    [[nodiscard]] int largestRate() const { return largestRate_; } ///< that is judged
+    [[nodiscard]] Saving everything() const;                       ///< nothing saved, at the largest rate
+    [[nodiscard]] std::vector<int> sides() const; ///< of maps, in steps of a square root of two, smallest first
+    [[nodiscard]] double diagonal() const { return diagonal_; }
+
+    const Surface& surface(int isolation);
+    const HeightMap& map(int side, MapFormat format);
+    std::unique_ptr<Model> model(const Saving& saving); ///< with a float map that holds what the format leaves
+    DenseMesh mesh(const Saving& saving);
+
+    MeshError errorOf(const DenseMesh& mesh) const;
+    const MeshError& errorOf(const Saving& saving); ///< measured once
+    const MeshCounts& countsOf(const Saving& saving);
+    std::uint64_t surfaceBytes(int isolation); ///< on the device, without a map
+    /// Of heights alone, as a fraction of the diagonal: what a format loses.
+    double formatError(int side, MapFormat format);
+
+private:
+    Device& device_;
+    const Subject& subject_;
+    Dicer dicer_;
+    double diagonal_;
+    std::size_t sampleCount_;
+    int referenceRate_ = 1, largestRate_ = 1;
+    std::map<int, Surface> surfaces_;
+    std::map<std::pair<int, MapFormat>, HeightMap> maps_;
+    struct Judged {
+        MeshError error;
+        MeshCounts counts;
+    };
+    const Judged& judged(const Saving& saving);
+    std::map<Saving, Judged> judged_;
+    std::map<int, std::uint64_t> surfaceBytes_;
+    DenseMesh referenceMesh_;
+    std::optional<MeasuredSurface> reference_;
+};
+
+} // namespace relief

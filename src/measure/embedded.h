@@ -1,0 +1,11 @@
+// Internal: what is built into the program.
+#pragma once
+
+#include <string>
+
+namespace relief {
+
+extern const char* const kOctopusObj; ///< meshes/octopus.obj
+extern const char* const kCommit;     ///< of the source that was configured, or "unknown"
+
+} // namespace relief

@@ -1,0 +1,150 @@
+// The suites `frame`, `scaling` and `animate`: what frames of so many triangles cost, and getting ready for them.
+#include <algorithm>
+#include <cmath>
+
+#include "measure/parts.h"
+
+namespace relief {
+namespace {
+
+constexpr const char* kDense = "dense mesh, raw";
+
+/// The triangles of a surface as a dense mesh on the device.
+std::unique_ptr<Model> denseModel(Device& device, const Model& model, int rate) {
+    const DenseMesh mesh = Dicer(device).diceToHost(model, exactRates(model, rate), {.wantsTexCoords = true});
+    return std::make_unique<Model>(device, ModelDesc{.dense = &mesh});
+}
+
+std::vector<Drawn> pathsOf(const OnDevice& on, const DeviceTraits& traits, int rate) {
+    std::vector<Drawn> all;
+    const auto add = [&](const char* name, Path path) {
+        RenderOptions options = on.renderOptions(rate);
+        options.path = path;
+        all.push_back({.name = name, .model = &on.model, .options = options});
+    };
+    if (traits.hasTessellation && std::uint32_t(rate) <= traits.maxTessellationLevel)
+        add("tessellation", Path::tessellation);
+    add("grid", Path::grid);
+    add("dicing", Path::dice);
+    return all;
+}
+
+void addRows(Bench& bench, const Row& like, std::span<const Drawn> all) {
+    for (const Drawn& drawn : all) {
+        Row row = like;
+        row.contestant = drawn.name;
+        drawn.tell(row);
+        bench.results.rows.push_back(row);
+    }
+}
+
+/// Copies of a cage in a row: as many faces as one likes, with everything that makes a cage costly.
+Cage repeated(const Cage& cage, int count) {
+    Cage all;
+    const auto pointCount = std::uint32_t(cage.positions.size()), texCount = std::uint32_t(cage.texCoords.size());
+    for (int copy = 0; copy < count; ++copy) {
+        const auto firstPoint = std::uint32_t(copy) * pointCount, firstTex = std::uint32_t(copy) * texCount;
+        for (const vec3& p : cage.positions)
+            all.positions.push_back(p + vec3(float(copy) * float(diagonalOf(cage)), 0, 0));
+        all.faceSizes.insert(all.faceSizes.end(), cage.faceSizes.begin(), cage.faceSizes.end());
+        for (const std::uint32_t corner : cage.corners) all.corners.push_back(firstPoint + corner);
+        all.texCoords.insert(all.texCoords.end(), cage.texCoords.begin(), cage.texCoords.end());
+        for (const std::uint32_t corner : cage.texCorners) all.texCorners.push_back(firstTex + corner);
+        for (const std::uint32_t point : cage.creaseEdges) all.creaseEdges.push_back(firstPoint + point);
+        all.creaseSharpness.insert(all.creaseSharpness.end(), cage.creaseSharpness.begin(), cage.creaseSharpness.end());
+        for (const std::uint32_t point : cage.sharpVertices) all.sharpVertices.push_back(firstPoint + point);
+        all.vertexSharpness.insert(all.vertexSharpness.end(), cage.vertexSharpness.begin(), cage.vertexSharpness.end());
+    }
+    all.boundaryRule = cage.boundaryRule;
+    all.texBoundaryRule = cage.texBoundaryRule;
+    all.creaseMethod = cage.creaseMethod;
+    return all;
+}
+
+/// Preparation against the faces of the cage.
+void measurePreparation(Bench& bench, const Subject& subject) {
+    const double most = bench.options.isQuick ? 6e3 : 1e5;
+    int previous = 0;
+    for (double faces = double(subject.cage.faceCount()); faces <= 1.2 * most; faces *= 4) {
+        const int copies = int(std::lround(std::min(faces, most) / double(subject.cage.faceCount())));
+        if (copies == previous) break;
+        previous = copies;
+        const Cage cage = repeated(subject.cage, copies);
+        std::vector<double> tables, upload;
+        for (int round = 0; round < (faces < 2e4 ? 3 : 1); ++round) {
+            Surface surface;
+            tables.push_back(millisecondsOf([&] { surface = buildSurface(cage, subject.surface); }));
+            upload.push_back(millisecondsOf(
+                [&] { const Model model(bench.device, {.surface = &surface, .cagePositions = cage.positions}); }));
+        }
+        Row row{"scaling", subject.name, "preparation", "faces", double(cage.faceCount()), {}};
+        row.add("tables", "ms", tables);
+        row.add("upload", "ms", upload);
+        row.add("a face", "us", Origin::measured,
+                1e3 * (spreadOf(tables).median + spreadOf(upload).median) / double(cage.faceCount()));
+        bench.results.rows.push_back(row);
+    }
+}
+
+} // namespace
+
+void measureFrame(Bench& bench, const Subject& subject) {
+    const OnDevice on(bench.device, subject);
+    const int rate = on.rateFor(bench.options.isQuick ? 6e4 : 1e6);
+    std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
+    const std::unique_ptr<Model> dense = denseModel(bench.device, on.model, rate);
+    all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
+    Renderer renderer(bench.device, {.width = bench.pictureSide(), .height = bench.pictureSide(), .shadowSide = 1});
+    drawRounds(renderer, on.views, bench.roundCount(), all);
+    addRows(bench, {.suite = "frame", .scene = subject.name}, all);
+    bench.progress.advance();
+}
+
+void measureScaling(Bench& bench, const Subject& subject) {
+    const OnDevice on(bench.device, subject);
+    Renderer renderer(bench.device, {.width = bench.pictureSide(), .height = bench.pictureSide(), .shadowSide = 1});
+    int previous = 0;
+    for (const double triangles : {3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7}) {
+        bench.progress.advance();
+        const int rate = on.rateFor(triangles);
+        if (rate == previous || triangles > (bench.options.isQuick ? 1e5 : 1e7)) continue;
+        previous = rate;
+        std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
+        std::unique_ptr<Model> dense;
+        if (triangles <= 3e6) {
+            dense = denseModel(bench.device, on.model, rate);
+            all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
+        }
+        drawRounds(renderer, on.views, triangles > 2e6 ? 3 : bench.options.isQuick ? 3 : 5, all);
+        for (Drawn& drawn : all) {
+            Row row{"scaling", subject.name, drawn.name, "triangles", double(drawn.last.triangleCount), {}};
+            drawn.tell(row);
+            row.add("a triangle", "ns", Origin::measured,
+                    1e6 * row.get("triangle passes") / double(drawn.last.triangleCount));
+            bench.results.rows.push_back(row);
+        }
+    }
+    measurePreparation(bench, subject);
+}
+
+/// What a pose sends to the device. Times of posed frames go into the same rows.
+void measureAnimate(Bench& bench, const Subject& subject) {
+    const OnDevice on(bench.device, subject);
+    int previous = 0;
+    for (const double triangles : {3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7}) {
+        const int rate = on.rateFor(triangles);
+        if (rate == std::exchange(previous, rate)) continue;
+        const DrawPlan plan = planGrids(on.model, exactRates(on.model, rate));
+        const auto add = [&](const char* name, std::uint64_t bytes) {
+            Row row{"animate", subject.name, name, "triangles", double(plan.triangleCount), {}};
+            row.add("uploaded a frame", "bytes", Origin::computed, double(bytes));
+            bench.results.rows.push_back(row);
+        };
+        add("posed cage", posedCageBytes(subject.cage.positions.size()));
+        add(kDense, posedDenseBytes(kRawLayout, plan.vertexCount));
+        add("dense mesh, quantised", posedDenseBytes(kQuantisedLayout, plan.vertexCount));
+    }
+    bench.progress.advance();
+}
+
+} // namespace relief

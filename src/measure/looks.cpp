@@ -1,0 +1,111 @@
+#include "measure/looks.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relief {
+namespace {
+
+constexpr float kAmplification = 8; ///< of differences in the report
+
+std::string pngOf(const Image& image, const ScratchFolder& folder) {
+    writeImage(folder / "image.png", image, SampleType::uint8);
+    return readFile(folder / "image.png");
+}
+
+} // namespace
+
+Looks::Looks(Bench& bench, Contest& contest)
+    : bench_(bench), contest_(contest),
+      renderer_(bench.device, {.width = bench.pictureSide() / 2, .height = bench.pictureSide() / 2, .shadowSide = 1}) {
+    const ReferenceSurface coarse(contest.subject().cage, {.scheme = contest.subject().surface.scheme, .isolation = 2});
+    const std::vector<dvec3> points = outline(coarse, &contest.subject().height);
+    const std::vector<Camera> path = cameraPath(points);
+    views_ = {path[0], path[2]};
+    for (const dvec3& p : points) bounds_.add(p);
+    const Model model(bench.device, {.dense = &contest.reference()});
+    RenderOptions options;
+    options.bounds = bounds_;
+    options.lighting.castsShadows = false;
+    for (const Camera& view : views_) {
+        options.camera = view;
+        reference_.push_back(see(model, options));
+    }
+}
+
+Looks::Seen Looks::see(const Model& model, const RenderOptions& options) {
+    const Picture picture = renderer_.render(model, options);
+    const std::string path = folder_ / "picture.png";
+    writePicture(path, picture);
+    Seen seen{.image = readImage(path), .png = readFile(path)};
+    const Image linear = picture.image();
+    for (std::size_t i = 3; i < linear.texels.size(); i += 4) seen.isObject.push_back(linear.texels[i] > 0);
+    return seen;
+}
+
+Looks::Look Looks::compare(const Model& model, RenderOptions options) {
+    Look look;
+    double sum = 0, count = 0;
+    for (std::size_t view = 0; view < views_.size(); ++view) {
+        options.camera = views_[view];
+        Seen seen = see(model, options);
+        const Seen& reference = reference_[view];
+        for (std::size_t i = 0; i < seen.image.texels.size(); ++i) {
+            if (!reference.isObject[i / 3] && !seen.isObject[i / 3]) continue;
+            sum += std::pow(double(seen.image.texels[i]) - reference.image.texels[i], 2.0);
+            ++count;
+        }
+        look.pngs.push_back(std::move(seen.png));
+        look.images.push_back(std::move(seen.image));
+    }
+    look.rmse = count > 0 ? std::sqrt(sum / count) : 0;
+    return look;
+}
+
+void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
+    looks_.clear();
+    std::vector<std::unique_ptr<Model>> models; // those that are timed live until all are
+    std::vector<Drawn> timed;
+    for (const Drawable& drawable : all) {
+        auto model = drawable.saving ? contest_.model(*drawable.saving)
+                                     : std::make_unique<Model>(bench_.device, ModelDesc{.dense = drawable.mesh});
+        RenderOptions options;
+        options.bounds = bounds_;
+        options.lighting.castsShadows = false;
+        options.path = Path::dice;
+        options.filtersHeights = false;
+        if (drawable.saving) options.rate = drawable.saving->rate;
+        looks_[drawable.name] = compare(*model, options);
+        if (!drawable.isTimed) continue;
+        timed.push_back({.name = drawable.name, .model = model.get(), .options = options});
+        models.push_back(std::move(model));
+    }
+    drawRounds(renderer_, views_, bench_.options.isQuick ? 2 : 5, timed);
+    for (const Drawn& drawn : timed) looks_[drawn.name].frame = drawn.wall;
+    if (!std::exchange(hasPair_, true)) {
+        addPair(tolerance, "dense mesh, raw", "cage + BC4 map");
+        addPair(tolerance, "dense mesh, raw", "cage + 16 bit map");
+    }
+}
+
+void Looks::addPair(double tolerance, const std::string& left, const std::string& right) {
+    const auto a = looks_.find(left), b = looks_.find(right);
+    if (a == looks_.end() || b == looks_.end()) return;
+    Image difference = a->second.images[0];
+    for (std::size_t i = 0; i < difference.texels.size(); ++i)
+        difference.texels[i] =
+            std::min(1.0f, kAmplification * std::abs(difference.texels[i] - b->second.images[0].texels[i]));
+    bench_.results.pictures.push_back({contest_.subject().name,
+                                       fmt::format("RMS error {:g} of the diagonal", tolerance), left, right,
+                                       a->second.pngs[0], b->second.pngs[0], pngOf(difference, folder_)});
+}
+
+void Looks::tell(const std::string& name, Row& row) const {
+    const auto found = looks_.find(name);
+    if (found == looks_.end()) return;
+    row.add("picture rmse", "of white", Origin::measured, found->second.rmse);
+    row.add("picture psnr", "dB", Origin::measured, found->second.rmse > 0 ? -20 * std::log10(found->second.rmse) : 99);
+    if (!found->second.frame.empty()) row.add("frame", "ms", found->second.frame);
+}
+
+} // namespace relief

@@ -1,0 +1,71 @@
+#include "measure/page.h"
+
+namespace relief {
+
+// The colors of series are those of Okabe and Ito ("Color universal design", 2008), lighter on a dark page.
+std::string styleSheet() {
+    return R"css(
+:root { color-scheme: light dark; --paper: #fcfcfb; --ink: #1c1e21; --soft: #5b6168; --grid: #e3e5e8; --box: #f2f3f4;
+  --good: #00694c; --bad: #a43e00; --c0: #0072b2; --c1: #d55e00; --c2: #009e73; --c3: #aa4b86; --c4: #4aa3d8; --c5: #777; }
+@media (prefers-color-scheme: dark) { :root { --paper: #15171a; --ink: #e7e9ec; --soft: #a2a9b1; --grid: #30343a;
+  --box: #1e2125; --good: #4fd1a5; --bad: #ff9a5c; --c0: #4a9ee0; --c1: #f58b45; --c2: #30c79b; --c3: #e29ac6;
+  --c4: #9fdcff; --c5: #999; } }
+* { box-sizing: border-box; }
+body { margin: 0 auto; padding: 1rem; max-width: 78rem; background: var(--paper); color: var(--ink);
+  font: 15px/1.5 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; overflow-wrap: break-word; }
+h1 { font-size: 1.6rem; line-height: 1.25; margin: .5rem 0; } h2 { font-size: 1.25rem; margin: 2.2rem 0 .4rem; }
+h3 { font-size: 1.02rem; margin: 1.4rem 0 .3rem; } p, ul.words { max-width: 46rem; margin: .5rem 0; }
+.soft, .caption { color: var(--soft); } .caption { font-size: .86rem; margin: .2rem 0 0; }
+.figures { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 27rem), 1fr)); gap: 1.4rem 2rem; }
+figure { margin: 0; min-width: 0; } figcaption b { display: block; font-size: .95rem; }
+figcaption .y { color: var(--soft); font-size: .82rem; }
+svg.plot { display: block; width: 100%; height: auto; }
+svg text { fill: var(--soft); font-size: 12.5px; } svg text.note { font-style: italic; } svg text.label { fill: var(--ink); }
+.grid { stroke: var(--grid); } .axis { stroke: var(--soft); fill: none; }
+.rule { stroke: var(--ink); stroke-width: 1.5; } .loss { fill: var(--bad); opacity: .07; }
+.line { fill: none; stroke-width: 2; } .line.thin { stroke-width: 1.2; opacity: .8; } .band { opacity: .13; }
+.c0 { stroke: var(--c0); } .c1 { stroke: var(--c1); } .c2 { stroke: var(--c2); } .c3 { stroke: var(--c3); }
+.c4 { stroke: var(--c4); } .c5 { stroke: var(--c5); }
+.mark { stroke: none; } .mark.c0, .f0 { fill: var(--c0); } .mark.c1, .f1 { fill: var(--c1); }
+.mark.c2, .f2 { fill: var(--c2); } .mark.c3, .f3 { fill: var(--c3); } .mark.c4, .f4 { fill: var(--c4); }
+.mark.c5, .f5 { fill: var(--c5); }
+ul.legend { list-style: none; display: flex; flex-wrap: wrap; gap: .1rem .9rem; margin: .1rem 0 0; padding: 0; font-size: .82rem; }
+ul.legend svg { width: 34px; height: 12px; margin-right: .35rem; vertical-align: -1px; }
+.scroll { overflow-x: auto; margin: .5rem 0; } table { border-collapse: collapse; font-size: .84rem; }
+th, td { padding: .22rem .6rem; text-align: right; border-bottom: 1px solid var(--grid); white-space: nowrap; }
+th { color: var(--soft); font-weight: 600; vertical-align: bottom; white-space: normal; min-width: 4.2rem; }
+th:first-child, td:first-child, td.words, th.words { text-align: left; } td.words { white-space: normal; min-width: 11rem; }
+td small { color: var(--soft); } td.computed::after { content: "\2009\2217"; color: var(--soft); }
+.good { color: var(--good); font-weight: 600; } .bad { color: var(--bad); font-weight: 600; }
+.strip { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 14rem), 1fr)); gap: .6rem; margin: .5rem 0 1.2rem; }
+.strip img { width: 100%; height: auto; display: block; border-radius: 3px; } .strip p { margin: .2rem 0 0; font-size: .84rem; }
+details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
+)css";
+}
+
+std::string assumptions() {
+    return R"html(<ul class="words">
+<li><b>Reference.</b> The displaced surface itself, with the scene's whole map, at four times the triangles of the mesh of a
+million. Distances go both ways, from samples of one surface to the nearest point of the other; RMS is the root of the mean
+of both mean squares. A contestant is as small as it can be with a measured RMS distance within the tolerance.</li>
+<li><b>Cage and map.</b> Resident is everything that the device holds of the surface: patches, trees, owners, refined points,
+texture coordinates, and the map with all its mips. Three things are saved at: the depth of refinement around extraordinary
+vertices, the size of the map, and its format. The device of today holds floats: other formats have had their geometry made
+from decoded values, and their bytes follow by arithmetic (marked ∗). On disk: the cage as OBJ text, and the map without mips.</li>
+<li><b>Dense mesh.</b> Each distinct sample once, again where texture coordinates part. Raw: position, normal and texture
+coordinates as 32-bit floats, 32 bytes a vertex, and 32-bit indices. Quantised: 16-bit positions, 8-bit octahedral normals
+and 16-bit texture coordinates, 12 bytes a vertex, triangles and vertices in the order that caches like. Simplified by
+meshoptimizer in steps of a square root of two. Draco at its encoder's own speed, normals 8 bits, texture coordinates 12.</li>
+<li><b>Read a frame, with all caches.</b> Every resident byte once. Diced triangles are written to memory and read again.</li>
+<li><b>Read a frame, without caches.</b> A dense mesh: 32 bytes for every call of the vertex shader that the device counted
+(three a triangle where nothing was counted), and its indices. A surface: for every evaluation the records of face and patch
+(64 bytes), two words of the tree, sixteen points with their indices (320), as many texture points (192), and five bilinear
+lookups of the map, four texels each; of BC4 a block of 8 bytes a lookup.</li>
+<li><b>Uploaded for a pose.</b> The cage's points, 16 bytes each, against positions and normals of the dense mesh.</li>
+<li><b>Times.</b> Rounds draw every contestant once, so that a slow spell of the machine hits all alike; the first round is
+not counted. Median, and the 5th to 95th percentile. No shadows; four samples a pixel; the camera turns around the object.</li>
+</ul>
+)html";
+}
+
+} // namespace relief

@@ -1,0 +1,198 @@
+// The model of bytes on cases computed by hand, and what formats leave of heights.
+#include <cmath>
+
+#include "measure/measure.h"
+#include "support.h"
+
+namespace relief::test {
+namespace {
+
+TEST(Bytes, ofMapsCountEveryMip) {
+    // 8 x 4 texels, then 4 x 2, 2 x 1, 1 x 1: 32 + 8 + 2 + 1.
+    EXPECT_EQ(mapBytes(MapFormat::real, 8, 4), 4u * 43);
+    EXPECT_EQ(mapBytes(MapFormat::half, 8, 4), 2u * 43);
+    EXPECT_EQ(mapBytes(MapFormat::unorm16, 8, 4), 2u * 43);
+    EXPECT_EQ(mapBytes(MapFormat::unorm8, 8, 4), 43u);
+    EXPECT_EQ(mapBytes(MapFormat::bc4, 8, 4), 8u * (2 + 1 + 1 + 1)); // blocks of 4 x 4, begun ones whole
+    EXPECT_EQ(mapBytes(MapFormat::unorm8, 5, 3), 15u + 2 + 1);
+    EXPECT_EQ(mapBytes(MapFormat::unorm8, 1, 1), 1u);
+}
+
+TEST(Bytes, ofDenseMeshesAreThoseOfVerticesAndIndices) {
+    EXPECT_EQ(residentBytes(kRawLayout, {100, 180}), 100u * 32 + 180 * 12);
+    EXPECT_EQ(residentBytes(kRawLayout, {100, 180}), denseBytes(100, 180));
+    EXPECT_EQ(residentBytes(kQuantisedLayout, {100, 180}), 100u * 12 + 180 * 12);
+}
+
+TEST(Bytes, ofPosesAreWhatMoves) {
+    EXPECT_EQ(posedCageBytes(1452), 23'232u);
+    EXPECT_EQ(posedDenseBytes(kRawLayout, 523'452), 24u * 523'452);
+    EXPECT_EQ(posedDenseBytes(kQuantisedLayout, 523'452), 8u * 523'452);
+}
+
+TEST(Traffic, ofADenseMeshIsBetweenItsBytesAndItsCalls) {
+    const Traffic traffic = denseTraffic(kRawLayout, {100, 180}, 250);
+    EXPECT_EQ(traffic.least, 5360u);
+    EXPECT_EQ(traffic.cacheless, 250u * 32 + 180 * 12);
+}
+
+TEST(Traffic, ofAnEvaluationIsItsRecordsPointsAndTexels) {
+    // Face and patch 32 each, 2 words of the tree, 16 points of 16 bytes with an index, 20 texels.
+    EXPECT_EQ(evaluationBytes(4, false), 64u + 8 + 16 * 20 + 20 * 4);
+    EXPECT_EQ(evaluationBytes(2, true), 64u + 8 + 16 * 20 + 16 * 12 + 20 * 2);
+    EXPECT_EQ(fetchedTexelBytes(MapFormat::bc4), 2); // a block of 8 bytes a lookup of four
+}
+
+TEST(Traffic, ofASurfaceHasItsDicedMeshTwice) {
+    const Traffic drawn = surfaceTraffic({.residentBytes = 1000, .calls = 10});
+    EXPECT_EQ(drawn.least, 1000u);
+    EXPECT_EQ(drawn.cacheless, 10 * evaluationBytes(4, true));
+    const Traffic diced = surfaceTraffic({.residentBytes = 1000, .calls = 10, .diced = {10, 12}});
+    EXPECT_EQ(diced.least, 1000u + 2 * (10 * 32 + 12 * 12));
+    EXPECT_EQ(diced.cacheless, 10 * evaluationBytes(4, true) + 2 * (10 * 32 + 12 * 12));
+}
+
+// --- formats
+
+HeightMap waves(int width, int height) {
+    std::vector<float> texels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) texels.push_back(float(0.3 * std::sin(0.4 * x) + 0.2 * std::cos(0.3 * y)));
+    return makeHeightMap(width, height, texels, 0.1, 2, Wrap::clamp);
+}
+
+double worstOf(const HeightMap& a, const HeightMap& b) {
+    double worst = 0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i)
+        worst = std::max(worst, std::abs(double(a.texels[i]) - b.texels[i]));
+    return worst;
+}
+
+TEST(Formats, areOffByNoMoreThanTheirSteps) {
+    const HeightMap map = waves(37, 22);
+    const double range = double(map.highest) - map.lowest;
+    const auto off = [&](MapFormat format) { return worstOf(map, decodedMap(map, format)); };
+    EXPECT_EQ(off(MapFormat::real), 0);
+    EXPECT_LE(off(MapFormat::half), 0.5 * 0x1p-11);
+    EXPECT_LE(off(MapFormat::unorm16), 0.51 * range / 65535);
+    EXPECT_LE(off(MapFormat::unorm8), 0.51 * range / 255);
+    EXPECT_GT(off(MapFormat::unorm8), 0.4 * range / 255);
+    EXPECT_LE(off(MapFormat::bc4), 0.05 * range); // a fourteenth of what a block spans
+    EXPECT_GT(off(MapFormat::bc4), 0);
+    const HeightMap decoded = decodedMap(map, MapFormat::unorm16);
+    EXPECT_EQ(decoded.mid, 0.1);
+    EXPECT_EQ(decoded.scale, 2);
+    EXPECT_EQ(decoded.wrap, Wrap::clamp);
+}
+
+TEST(Formats, keepAFlatMap) {
+    const HeightMap flat = makeHeightMap(5, 5, std::vector<float>(25, 0.75f), 0, 1, Wrap::repeat);
+    for (const MapFormat format : {MapFormat::half, MapFormat::unorm16, MapFormat::unorm8, MapFormat::bc4})
+        EXPECT_EQ(worstOf(flat, decodedMap(flat, format)), 0) << nameOf(format);
+}
+
+TEST(Bc4, hasTheBitsOfTheSpecification) {
+    // Two end points, then three bits a texel, the first texel lowest; red0 > red1: six values between.
+    const std::array<std::uint8_t, 8> block{255, 0, 0b10'001'000, 0, 0, 0, 0, 0};
+    const std::array<float, 16> values = decodeBc4(block);
+    EXPECT_FLOAT_EQ(values[0], 1);        // 0: red0
+    EXPECT_FLOAT_EQ(values[1], 0);        // 1: red1
+    EXPECT_FLOAT_EQ(values[2], 6.0f / 7); // 2: the first between
+    const std::array<std::uint8_t, 8> other{0, 255, 0b10'111'110, 0, 0, 0, 0, 0};
+    const std::array<float, 16> fewer = decodeBc4(other);
+    EXPECT_FLOAT_EQ(fewer[0], 0);        // 6: zero
+    EXPECT_FLOAT_EQ(fewer[1], 1);        // 7: one
+    EXPECT_FLOAT_EQ(fewer[2], 1.0f / 5); // 2: of four between
+}
+
+TEST(Bc4, isExactForItsOwnValuesAndNearForRamps) {
+    std::array<float, 16> own;
+    for (std::size_t i = 0; i < 16; ++i) own[i] = (float(i % 8) * 224 + 28 * 0) / 7 / 255; // 0, 32/255, ... 224/255
+    const std::array<float, 16> back = decodeBc4(encodeBc4(own));
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(back[i], own[i], 1e-6) << i;
+    std::array<float, 16> ramp;
+    for (std::size_t i = 0; i < 16; ++i) ramp[i] = 0.2f + 0.02f * float(i);
+    const std::array<float, 16> near = decodeBc4(encodeBc4(ramp));
+    for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(near[i], ramp[i], 0.3 / 14 + 2.0 / 255) << i;
+}
+
+TEST(Resampling, keepsTheMeanAndRamps) {
+    std::vector<float> texels;
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 12; ++x) texels.push_back(float(x) + 10 * float(y));
+    const HeightMap map = makeHeightMap(12, 9, texels, 0, 1, Wrap::clamp);
+    const HeightMap half = resampled(map, 6, 3);
+    EXPECT_FLOAT_EQ(half.texels[0], 0.5f + 10); // columns 0 and 1, rows 0 to 2
+    EXPECT_FLOAT_EQ(half.texels[17], 10.5f + 70);
+    const HeightMap odd = resampled(map, 5, 4); // texels that cover parts of others
+    double sum = 0;
+    for (const float texel : odd.texels) sum += texel;
+    EXPECT_NEAR(sum / 20, 5.5 + 40, 1e-4);
+    EXPECT_EQ(resampled(map, 12, 9).texels, map.texels);
+}
+
+// --- meshes
+
+/// A wavy sheet of 2 n^2 triangles.
+DenseMesh sheet(std::uint32_t n) {
+    DenseMesh mesh;
+    for (std::uint32_t y = 0; y <= n; ++y)
+        for (std::uint32_t x = 0; x <= n; ++x) {
+            const vec2 st(float(x) / float(n), float(y) / float(n));
+            mesh.positions.emplace_back(3 * st.x, 0.1 * std::sin(6 * st.x), 2 * st.y);
+            mesh.normals.push_back(glm::normalize(vec3(-0.2 * std::cos(6 * st.x), 1, 0)));
+            mesh.texCoords.push_back(st);
+        }
+    for (std::uint32_t y = 0; y < n; ++y)
+        for (std::uint32_t x = 0; x < n; ++x) {
+            const std::uint32_t a = y * (n + 1) + x;
+            mesh.indices.insert(mesh.indices.end(), {a, a + n + 1, a + n + 2, a, a + n + 2, a + 1});
+        }
+    return mesh;
+}
+
+double hausdorff(const DenseMesh& a, const DenseMesh& b) {
+    return measureDistance(MeasuredSurface({a.positions, a.indices}, 5000),
+                           MeasuredSurface({b.positions, b.indices}, 5000))
+        .hausdorff();
+}
+
+TEST(Opponents, quantisedMeshesAreOffByHalfAStep) {
+    const DenseMesh mesh = sheet(20);
+    const EncodedMesh encoded = quantised(mesh);
+    EXPECT_EQ(encoded.residentBytes, 441u * 12 + 800 * 12);
+    EXPECT_GT(encoded.diskBytes, 441u);
+    EXPECT_LT(encoded.diskBytes, encoded.residentBytes);
+    EXPECT_EQ(encoded.decoded.indices.size(), mesh.indices.size());
+    EXPECT_LE(hausdorff(mesh, encoded.decoded), std::sqrt(0.25 * (9 + 4 + 0.04)) / 65535 * 1.01);
+    for (std::size_t i = 0; i < encoded.decoded.positions.size();
+         ++i) { // vertices have moved: compare with the formula
+        const double x = encoded.decoded.positions[i].x / 3;
+        const vec3 n = glm::normalize(vec3(-0.2 * std::cos(6 * x), 1, 0));
+        EXPECT_GT(glm::dot(n, encoded.decoded.normals[i]), std::cos(0.015)); // 8 bits: within a degree
+    }
+}
+
+TEST(Opponents, simplifiedMeshesHaveFewerTrianglesOnTheSameSurface) {
+    const DenseMesh mesh = sheet(40), simple = simplified(mesh, 800);
+    EXPECT_LE(simple.indices.size() / 3, 800u);
+    EXPECT_GT(simple.indices.size() / 3, 500u);
+    EXPECT_EQ(simple.normals.size(), simple.positions.size());
+    EXPECT_EQ(simple.texCoords.size(), simple.positions.size());
+    EXPECT_LT(simple.positions.size(), mesh.positions.size());
+    EXPECT_LT(hausdorff(mesh, simple), 0.003);
+}
+
+TEST(Opponents, dracoMeshesAreAsNearAsTheirBits) {
+    const DenseMesh mesh = sheet(30);
+    const EncodedMesh coarse = dracoEncoded(mesh, 8), fine = dracoEncoded(mesh, 14);
+    EXPECT_LT(fine.diskBytes, 961u * 32 / 3);
+    EXPECT_EQ(fine.decoded.indices.size(), mesh.indices.size());
+    EXPECT_EQ(fine.decoded.normals.size(), fine.decoded.positions.size());
+    const double step = 3.0 / 16383; // of the longest side
+    EXPECT_LE(hausdorff(mesh, fine.decoded), 0.5 * std::sqrt(3.0) * step * 1.01);
+    EXPECT_GT(hausdorff(mesh, coarse.decoded), step);
+}
+
+} // namespace
+} // namespace relief::test
