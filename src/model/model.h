@@ -60,6 +60,7 @@ public:
 
     [[nodiscard]] bool isDense() const { return isDense_; }
     [[nodiscard]] const Buffer& indices() const { return indices_; } ///< of a dense mesh
+    [[nodiscard]] const Buffer& meshVertices() const { return mesh_.buffer; } ///< position with height, normal
     [[nodiscard]] std::uint32_t indexCount() const { return indexCount_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; } ///< of a dense mesh
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }

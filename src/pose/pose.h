@@ -84,4 +84,24 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
+// --- dense meshes
+// -----------------------------------------------------------------------------------------------------
+
+/// Moves the vertices of a dense mesh on the device: what animation takes without a cage.
+class MeshPoser {
+public:
+    /// `rig`: of the mesh's vertices, joints alone. The model, made of the mesh, has to outlive it.
+    MeshPoser(Device& device, const Model& model, const DenseMesh& mesh, const Rig& rig);
+    ~MeshPoser();
+
+    /// Skins positions and normals on the device.
+    void pose(const Pose& pose);
+    /// Sends positions and normals that the processor has posed; returns the bytes that went there.
+    std::uint64_t upload(std::span<const vec3> positions, std::span<const vec3> normals);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
 } // namespace relief

@@ -4,8 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "model/shaders.h"
-#include "pose/pose.h"
+#include "pose/stages.h"
 #include "shared/displacement.h"
 #include "shared/pose.h"
 
@@ -16,28 +15,6 @@ constexpr std::uint32_t kCageGroup = 64;       ///< invocations of pose_cage.com
 constexpr std::uint32_t kPointsGroup = 64;     ///< of pose_points.comp, where it loops
 constexpr std::uint32_t kLanes = 8;            ///< of pose_points.comp, where it is straight code
 constexpr std::uint32_t kStraightEntries = 32; ///< blocks of more loop everywhere
-constexpr std::uint32_t kGroupsAtOnce = 65535; ///< of a dispatch, in every device
-constexpr std::uint32_t kFloatsAJoint = 12;    ///< three rows: joints are affine
-
-/// The block in pose.glsl.
-struct PosePush {
-    std::uint64_t target = 0;
-    std::uint32_t firstPoint = 0, pointCount = 0;
-    std::uint32_t firstBlock = 0, endBlock = 0, firstBlockEntry = 0, firstTarget = 0, firstEntry = 0;
-    std::uint32_t influenceCount = 0, morphCount = 0, isRigged = 0;
-};
-
-PipelineLayoutDesc poseLayout() {
-    return {std::vector<VkDescriptorType>(kPoseBindCount, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER), sizeof(PosePush)};
-}
-
-std::vector<vec4> padded(std::span<const vec3> first, std::span<const vec3> second = {}) {
-    std::vector<vec4> texels;
-    texels.reserve(first.size() + second.size());
-    for (const std::span<const vec3> all : {first, second})
-        for (const vec3& v : all) texels.emplace_back(v, 0.0f);
-    return texels;
-}
 
 void appendFloats(std::vector<float>& floats, std::span<const vec3> points) {
     for (const vec3& p : points) floats.insert(floats.end(), {p.x, p.y, p.z});
@@ -53,7 +30,6 @@ struct Poser::Parts {
     FaceSupports supports;
     std::optional<Rig> rig;
     float mostStretch = 1;
-    Buffer* target = nullptr; ///< of the model
     TexelBuffer words, weights, rest, joints, influences;
     TexelBuffer uploads[2]; ///< taken in turn: one is written while the device may still read the other
     Pipeline cagePipeline;
@@ -78,6 +54,7 @@ struct Poser::Parts {
     void runPass(VkCommandBuffer commands, const PointsPass& pass, const BindingSet& set) const;
     void bindAll(VkBufferView points);
     void checkPose(const Pose& pose) const;
+    /// What goes to the device: the posed cage, or what moves its rig.
     [[nodiscard]] std::vector<float> uploadOf(const Pose& pose) const;
     void evaluate(std::span<const float> floats, std::uint32_t firstPoint, bool isRigged);
 };
@@ -146,13 +123,6 @@ void Poser::Parts::uploadRig() {
                             VK_FORMAT_R32_SFLOAT);
 }
 
-Pipeline makePosePipeline(Device& device, const char* file, std::vector<std::uint32_t> constants) {
-    return makeCompute(device, {.name = file,
-                                .stage = {VK_SHADER_STAGE_COMPUTE_BIT, shaderCode(file)},
-                                .constants = std::move(constants),
-                                .layout = poseLayout()});
-}
-
 void Poser::Parts::makePasses(const StencilBlocks& blocks) {
     cagePipeline = makePosePipeline(device, "pose_cage.comp", {});
     std::uint32_t block = 0;
@@ -195,16 +165,11 @@ void Poser::Parts::checkPose(const Pose& pose) const {
     check(pose.morphWeights.size(), rig->morphCount, "morph weights");
 }
 
-/// What goes to the device: the posed cage, or morph weights and the upper three rows of each joint.
 std::vector<float> Poser::Parts::uploadOf(const Pose& pose) const {
-    std::vector<float> floats = pose.morphWeights;
-    for (const mat4& joint : pose.joints)
-        for (int row = 0; row < 3; ++row)
-            for (int column = 0; column < 4; ++column) floats.push_back(joint[column][row]);
-    if (!pose.positions.empty()) floats.clear();
+    if (pose.positions.empty()) return rigFloats(pose);
+    std::vector<float> floats;
     appendFloats(floats, pose.positions);
-    for (const float number : floats)
-        if (!std::isfinite(number)) fail(Failure::input, "a pose holds a number that is not finite ({})", number);
+    checkFinite(floats);
     return floats;
 }
 

@@ -343,11 +343,12 @@ TEST_F(Poses, thatStretchHaveTheReferencesPointsAndTheNormalsOfItsDifferences) {
 TEST_F(Poses, thatStretchAreTheSameOnAllPathsAndWatertight) {
     const StretchScene scene(cubeOfIslands(), twisted(cubeOfIslands(), 0.6));
     EdgeRater rater(device());
+    Capturer capturer(device());
     std::size_t samples = 0;
     for (const Path path : {Path::tessellation, Path::grid, Path::dice}) {
         const TriangleOptions options{.path = path, .rate = 6};
         const EdgeRates rates = rater.rates(scene.model, options, {});
-        const CapturedMesh mesh = captureTriangles(device(), scene.model, options, rates);
+        const CapturedMesh mesh = capturer.capture(scene.model, options, rates);
         EXPECT_EQ(mesh.indices.size() / 3, plannedTriangles(scene.model, path, rates));
         std::vector<std::array<float, 3>> distinct;
         for (const std::uint32_t index : mesh.indices)
