@@ -21,10 +21,13 @@ public:
         Pose pose;
         for (const GltfJoint& joint : binding_.joints) {
             pose.joints.emplace_back(worlds[joint.node] * joint.inverseBind);
-            checkFinite(pose.joints.back(), joint.node, seconds);
+            for (int column = 0; column < 4; ++column)
+                checkFinite(pose.joints.back()[column], "matrix", joint.node, seconds);
         }
-        for (const GltfMorph& morph : binding_.morphs)
+        for (const GltfMorph& morph : binding_.morphs) {
             pose.morphWeights.push_back(float(motion.weights[morph.node][morph.target]));
+            checkFinite(vec4(pose.morphWeights.back()), "weights", morph.node, seconds);
+        }
         return pose;
     }
 
@@ -34,10 +37,11 @@ public:
 
 private:
     /// Finite numbers may still multiply past all floats.
-    void checkFinite(const mat4& matrix, std::uint32_t node, double seconds) const {
-        for (int column = 0; column < 4; ++column)
-            if (!std::isfinite(glm::dot(dvec3(matrix[column]), dvec3(matrix[column]))))
-                fail(Failure::input, "{}: the matrix of node {} is not finite at {} s", path_, node, seconds);
+    void checkFinite(const vec4& numbers, const char* what, std::uint32_t node, double seconds) const {
+        for (int k = 0; k < 4; ++k)
+            if (!std::isfinite(numbers[k]))
+                fail(Failure::input, "{}: the {} of node {} cannot be told by floats at {} s", path_, what, node,
+                     seconds);
     }
 
     std::string path_;
@@ -50,7 +54,7 @@ std::string listOf(const std::vector<GltfClip>& clips) {
     constexpr std::size_t kMost = 20;
     std::string list;
     for (std::size_t i = 0; i < clips.size() && i < kMost; ++i)
-        list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, clips[i].name);
+        list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, printable(clips[i].name));
     return clips.size() > kMost ? list + ", ..." : list;
 }
 
@@ -62,7 +66,7 @@ std::size_t findClip(const std::vector<GltfClip>& clips, const std::string& aske
     std::size_t number = 0;
     const auto [end, error] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
     if (error != std::errc() || end != asked.data() + asked.size() || number >= clips.size())
-        fail(Failure::input, "{}: there is no animation '{}'; there are {}", path, asked, listOf(clips));
+        fail(Failure::input, "{}: there is no animation '{}'; there are {}", path, printable(asked), listOf(clips));
     return number;
 }
 
@@ -77,7 +81,7 @@ std::unique_ptr<Animation> readSkin(const std::string& path, const Cage& cage, c
     else if (options.clip.empty())
         warn(fmt::format("{}: there is no animation in it; the cage stands still", path));
     else
-        fail(Failure::input, "{}: there is no animation '{}', nor any other", path, options.clip);
+        fail(Failure::input, "{}: there is no animation '{}', nor any other", path, printable(options.clip));
     GltfBinding binding = bindCage(scene, cage, options.bindsNearest, path, warn);
     scene.meshes.clear();
     return std::make_unique<Skin>(path, std::move(scene), std::move(binding), clip);

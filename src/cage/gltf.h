@@ -103,6 +103,9 @@ glm::dmat4 blendedMatrix(const GltfPrimitive& primitive, std::size_t vertex, boo
 /// A vertex with its morph targets, before joints (3.7.2.2).
 dvec3 morphedPosition(const GltfPrimitive& primitive, std::size_t vertex, std::span<const double> weights);
 
+/// The first line of foreign words as it may stand in a message: not too long, without control characters.
+std::string printable(std::string_view text);
+
 /// The scene's triangles as a cage: see readCage.
 Cage readGltfCage(const std::string& path, const Warn& warn);
 

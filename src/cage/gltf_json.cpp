@@ -2,7 +2,6 @@
 #include <limits>
 #include <optional>
 
-#include "base/base.h"
 #include "cage/gltf_json.h"
 
 namespace relief {

@@ -383,6 +383,9 @@ TEST(Skin, clipsAreFoundByNameAndByNumber) {
     EXPECT_EQ(firstAt1("1"), vec3(0, 7, 1));
     EXPECT_EQ(firstAt1("0"), vec3(0, 7, 1)); // its name
     EXPECT_EQ(Skinned(file, rigidCage(), {.clip = "1"}).animation->keyRange(), dvec2(0, 0));
+    GltfFile odd = file;
+    odd.json["animations"][1]["name"] = "two\nlines";
+    expectFailure(Failure::input, {"1 'two'"}, [&] { Skinned(odd, rigidCage(), {.clip = "run"}); });
     for (const std::string clip : {"run", "2", "-1", "1x", "99999999999999999999"})
         expectFailure(Failure::input, {"a.gltf", "'" + clip + "'", "0 'walk', 1 '0'"}, [&] { firstAt1(clip); });
 }

@@ -1,7 +1,5 @@
 // Cages from glTF files.
 #include <cmath>
-#include <numbers>
-#include <set>
 
 #include "gltf.h"
 #include "meshes.h"
