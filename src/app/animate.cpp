@@ -45,8 +45,7 @@ void checkTarget(const AnimateArgs& args) {
     checkWritable(frameName(args.target, 0));
 }
 
-// --- what moves
-// -------------------------------------------------------------------------------------------------------
+// --- what moves ----------------------------------------------------------------------------------------------------
 
 /// Frames that are asked for, or all that there are.
 std::vector<int> framesOf(const AnimateArgs& args, const Animation* animation) {
@@ -78,25 +77,27 @@ std::vector<dvec3> outlineOfAll(const Loaded& loaded) {
     return points;
 }
 
-/// One camera far enough away for the whole turn.
-void holdTurn(CameraArgs& camera, std::span<const dvec3> points) {
+/// Fixes where the camera looks and from how far: so that it holds all points, from all sides of a turn.
+void holdCamera(CameraArgs& camera, std::span<const dvec3> points, bool isTurn) {
     constexpr int kSides = 24;
-    Bounds bounds;
-    for (const dvec3& p : points) bounds.add(p);
-    if (camera.lookAt.empty()) camera.lookAt = {bounds.center().x, bounds.center().y, bounds.center().z};
-    if (camera.distance > 0) return;
+    if (isTurn && camera.lookAt.empty()) {
+        Bounds bounds;
+        for (const dvec3& p : points) bounds.add(p);
+        camera.lookAt = {bounds.center().x, bounds.center().y, bounds.center().z};
+    }
     CameraArgs side = camera;
     double farthest = 0;
-    for (int i = 0; i < kSides; ++i) {
+    Camera held;
+    for (int i = 0; i < (isTurn ? kSides : 1); ++i) {
         side.options.azimuth = camera.options.azimuth + 360.0 * i / kSides;
-        const Camera held = cameraOf(side, points);
+        held = cameraOf(side, points);
         farthest = std::max(farthest, glm::length(held.eye - held.target));
     }
+    camera.lookAt = {held.target.x, held.target.y, held.target.z};
     camera.distance = farthest;
 }
 
-// --- frames
-// -----------------------------------------------------------------------------------------------------------
+// --- frames --------------------------------------------------------------------------------------------------------
 
 /// A finished picture and what it took.
 struct Drawn {
@@ -124,7 +125,7 @@ private:
     std::vector<int> frames_;
     Loaded loaded_;
     Shading shading_;
-    std::vector<dvec3> points_;
+    Bounds bounds_; ///< of the object in all poses that the camera holds
     std::unique_ptr<Device> device_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<Poser> poser_;
@@ -139,8 +140,9 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
         fail(Failure::usage, "{}: what moves is a subdivision surface; name its --scheme", surface.cage);
     frames_ = framesOf(args, loaded_.animation.get());
     shading_ = loadShading(picture_);
-    points_ = outlineOfAll(loaded_);
-    if (args.turntable > 0) holdTurn(picture_.camera, points_);
+    const std::vector<dvec3> points = outlineOfAll(loaded_);
+    holdCamera(picture_.camera, points, args.turntable > 0);
+    for (const dvec3& p : points) bounds_.add(p);
 
     device_ = std::make_unique<Device>(DeviceDesc{.name = picture_.device});
     model_ = std::make_unique<Model>(*device_, ModelDesc{.surface = &loaded_.surface,
@@ -169,7 +171,7 @@ RenderOptions FrameMaker::optionsAt(int frame) const {
     const auto at = [&](int number) {
         PictureArgs picture = picture_;
         if (args_.turntable > 0) picture.camera.options.azimuth += 360.0 * (number - 1) / args_.turntable;
-        RenderOptions options = renderOptions(picture, *device_, points_);
+        RenderOptions options = renderOptions(picture, *device_, {bounds_.lower, bounds_.upper});
         if (poser_) options.bounds = poser_->bounds();
         if (poser_) fitDepth(options.camera, options.bounds);
         return options;
@@ -254,22 +256,21 @@ void writePictures(FrameMaker& maker, const AnimateArgs& args, Report& report) {
 /// The posed cage itself: no device is needed.
 void writeCache(const AnimateArgs& args, Report& report) {
     const Cage cage = readCage(args.surface.cage, args.output.warn());
-    SurfaceArgs surface = args.surface;
-    surface.pose.staysAtRest = true;
-    const Loaded loaded = load(surface, args.output);
-    if (!loaded.animation)
+    const PoseArgs& pose = args.surface.pose;
+    const std::unique_ptr<Animation> animation = animationOf(pose, cage, args.output);
+    if (!animation)
         fail(Failure::usage, "{}: a point cache holds a cage that moves; name --cache, --skin or --deform",
-             surface.cage);
-    const std::vector<int> frames = framesOf(args, loaded.animation.get());
+             args.surface.cage);
+    const std::vector<int> frames = framesOf(args, animation.get());
     for (std::size_t i = 0; i < frames.size(); ++i)
         if (frames[i] != frames[0] + int(i))
             fail(Failure::usage, "{}: a point cache has every frame of a range; --frames {} leaves some out",
                  args.target, args.frames);
     const CacheHeader header{std::uint32_t(cage.positions.size()), std::uint32_t(frames.size()), double(frames[0]),
-                             surface.pose.fps};
+                             pose.fps};
     writePointCache(args.target, header, [&](std::uint32_t k) {
         report.frames.push_back({{"frame", frames[k]}});
-        return posedPositions(loaded.animation->rig(), loaded.animation->pose(secondsOf(frames[k], surface.pose)));
+        return posedPositions(animation->rig(), animation->pose(secondsOf(frames[k], pose)));
     });
 }
 

@@ -290,8 +290,6 @@ void checkValidation(const Device& device) {
     if (count > 0) fail(Failure::internal, "the Vulkan validation layer has {} complaints", count);
 }
 
-namespace {
-
 std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output) {
     if (args.isStill()) return nullptr;
     std::unique_ptr<Animation> animation;
@@ -305,6 +303,8 @@ std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, c
     }
     return args.deform.empty() ? std::move(animation) : deform(std::move(animation), cage, args.deform);
 }
+
+namespace {
 
 /// Moves the cage to the pose of --time.
 void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path) {

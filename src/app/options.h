@@ -117,6 +117,8 @@ struct Loaded {
 
     [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
 };
+/// What moves the cage, or null.
+std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output);
 /// The cage is in the pose of PoseArgs::time, unless it stays at rest.
 Loaded load(const SurfaceArgs& args, const Output& output);
 /// Points for framing: a coarse reference is enough.

@@ -11,8 +11,7 @@
 
 namespace relief {
 
-// --- stencils as the device reads them
-// --------------------------------------------------------------------------------
+// --- stencils as the device reads them -----------------------------------------------------------------------------
 
 /// Blocks with as many entries each, one behind another.
 struct StencilClass {
@@ -45,8 +44,7 @@ private:
     std::vector<float> spreads_; ///< sum of the absolute weights of a face's control points at most: 1 inside a hull
 };
 
-// --- posing
-// -----------------------------------------------------------------------------------------------------------
+// --- posing --------------------------------------------------------------------------------------------------------
 
 enum class HeightSpace {
     absolute, ///< heights are cage units in every pose
@@ -84,8 +82,7 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-// --- dense meshes
-// -----------------------------------------------------------------------------------------------------
+// --- dense meshes --------------------------------------------------------------------------------------------------
 
 /// Moves the vertices of a dense mesh on the device: what animation takes without a cage.
 class MeshPoser {

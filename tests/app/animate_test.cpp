@@ -26,8 +26,7 @@ protected:
     }
 };
 
-// --- frames
-// -----------------------------------------------------------------------------------------------------------
+// --- frames --------------------------------------------------------------------------------------------------------
 
 TEST_F(Animate, namesFramesByTheirNumbers) {
     expectDone(relief(twist("8:10x2,0", "f.{frame:4}.png")));
@@ -97,8 +96,7 @@ TEST_F(Animate, turnsOnceAround) {
     EXPECT_GT(across, 0.05);
 }
 
-// --- going on
-// ---------------------------------------------------------------------------------------------------------
+// --- going on ------------------------------------------------------------------------------------------------------
 
 TEST_F(Animate, resumesWithTheFramesThatAreMissing) {
     putFile(folder_ / "f.2.png", "this frame was there");
@@ -133,8 +131,7 @@ TEST_F(Animate, tellsHowFastItGoes) {
     EXPECT_TRUE(contains(outcome.err, "2 frames in")) << outcome.err;
 }
 
-// --- clips
-// ------------------------------------------------------------------------------------------------------------
+// --- clips ---------------------------------------------------------------------------------------------------------
 
 bool hasFfmpeg() { return std::system("ffmpeg -version >/dev/null 2>&1") == 0; }
 
@@ -158,8 +155,7 @@ TEST_F(Animate, saysWhatIsMissingWithoutFfmpeg) {
     EXPECT_EQ(folder_.fileCount(), 0u);
 }
 
-// --- refusals
-// ---------------------------------------------------------------------------------------------------------
+// --- refusals ------------------------------------------------------------------------------------------------------
 
 TEST_F(Animate, refusesWordsThatMakeNoSense) {
     const auto refuse = [&](const Words& more, const Words& parts) {
@@ -195,8 +191,7 @@ TEST_F(Animate, refusesCachesThatAreNotWhole) {
     EXPECT_EQ(folder_.fileCount(), 2u);
 }
 
-// --- layers
-// -----------------------------------------------------------------------------------------------------------
+// --- layers --------------------------------------------------------------------------------------------------------
 
 TEST_F(Animate, writesLayersAsChannels) {
     expectDone(relief(twist("3", "f.{frame}.exr"), "--layers all"));

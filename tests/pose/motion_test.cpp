@@ -176,8 +176,7 @@ TEST_F(Motion, layersAreTheSurfacesOwn) {
     });
 }
 
-// --- watertight while it moves
-// ----------------------------------------------------------------------------------------
+// --- watertight while it moves -------------------------------------------------------------------------------------
 
 TEST_F(Motion, keepsTheTrianglesClosed) {
     const HeightMap map = sineMap(64, 0.1);

@@ -51,8 +51,7 @@ double degrees(const dvec3& a, const dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
-// --- stencils
-// ---------------------------------------------------------------------------------------------------------
+// --- stencils ------------------------------------------------------------------------------------------------------
 
 /// The rows as the device sums them, in double precision.
 std::vector<dvec3> blended(const StencilBlocks& blocks, std::span<const vec3> cage, std::size_t rowCount) {
@@ -99,8 +98,7 @@ TEST(StencilBlocks, ofOneSizeLieTogetherInEights) {
     EXPECT_EQ(block, blocks.blockCount());
 }
 
-// --- poses
-// ------------------------------------------------------------------------------------------------------------
+// --- poses ---------------------------------------------------------------------------------------------------------
 
 class Poses : public OnDevice {};
 
@@ -214,8 +212,7 @@ TEST_F(Poses, areRefusedWithOtherCountsOrNumbersThatAreNotFinite) {
     expectFailure(Failure::input, {"not finite"}, [&] { poser.pose(poseOf(positions)); });
 }
 
-// --- rigs
-// -------------------------------------------------------------------------------------------------------------
+// --- rigs ----------------------------------------------------------------------------------------------------------
 
 mat4 rotationAbout(const vec3& center, double angle, const vec3& shift) {
     const auto c = float(std::cos(angle)), s = float(std::sin(angle));
@@ -278,8 +275,7 @@ TEST_F(Poses, ofRigsAreThoseOfTheProcessor) {
     }
 }
 
-// --- stretching heights
-// -----------------------------------------------------------------------------------------------
+// --- stretching heights --------------------------------------------------------------------------------------------
 
 struct StretchScene {
     Cage cage;
