@@ -21,6 +21,7 @@ struct Drawn {
     Picture picture;
     std::string device;
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
+    std::uint64_t peakDeviceBytes = 0; ///< of everything that the frame has on the device
     double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
 };
 
@@ -39,6 +40,7 @@ void report(const RenderArgs& args, const Drawn& drawn) {
                                     {"vertices", stats.vertexCount},
                                     {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
                                     {"device_bytes", drawn.deviceBytes},
+                                    {"peak_device_bytes", drawn.peakDeviceBytes},
                                     {"load_ms", 1e3 * drawn.loadSeconds},
                                     {"surface_ms", 1e3 * drawn.surfaceSeconds},
                                     {"table_ms", 1e3 * drawn.tableSeconds},
@@ -92,7 +94,9 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     malloc_trim(0);
     progress.advance();
     Renderer renderer(device, {.width = args.picture.camera.size[0], .height = args.picture.camera.size[1]});
+    device.startPeak();
     drawn.picture = renderer.render(model, options);
+    drawn.peakDeviceBytes = device.peakBytes();
     progress.advance();
     checkValidation(device);
     return drawn;

@@ -34,12 +34,13 @@ class Bandwidth {
 public:
     Bandwidth(Bench& bench, const Subject& subject)
         : bench_(bench),
-          contest_(bench.device, subject, bench.options.isQuick ? 6e4 : 1e6, bench.options.isQuick ? 40'000 : 150'000),
+          contest_(bench.device, subject, bench.options.isQuick ? 6e4 : 1e6, bench.options.isQuick ? 40'000 : 100'000),
           looks_(bench, contest_), cageFileBytes_(double(cageFileBytes(subject.cage))) {}
 
     void run() {
-        makeSimplified();
-        for (const double tolerance : tolerances()) {
+        const std::vector<double> all = tolerances();
+        makeSimplified(all.back());
+        for (const double tolerance : all) {
             std::vector<Entry> entries;
             for (const MapFormat format : kFormats) addSurface(entries, tolerance, format);
             addDense(entries, tolerance);
@@ -51,13 +52,15 @@ public:
     }
 
 private:
-    /// As the dense mesh of a million triangles, to two digits upwards; and round ones that can be met.
+    /// As the dense mesh of a million triangles, to two digits upwards; and round ones below the heights themselves.
     std::vector<double> tolerances() {
         const double same = errorAtRate(contest_.referenceRate() / 2);
         const double unit = std::pow(10, std::floor(std::log10(same)) - 1);
         std::vector<double> all{std::ceil(same / unit) * unit};
-        for (const double round : {3e-5, 1e-4, 3e-4, 1e-3})
-            if (round > 1.3 * all.front() && all.size() < (bench_.options.isQuick ? 2u : 4u)) all.push_back(round);
+        const double most = 0.5 * contest_.heightRms();
+        for (const double round : {1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3})
+            if (round > 1.5 * all.front() && round < most && all.size() < (bench_.options.isQuick ? 2u : 4u))
+                all.push_back(round);
         return all;
     }
 
@@ -181,9 +184,10 @@ private:
         if (rate == 0) return note("dense mesh", tolerance);
         Saving saving = contest_.everything();
         saving.rate = rate;
-        entries.push_back(denseEntry("dense mesh, raw", contest_.mesh(saving), contest_.errorOf(saving)));
+        const DenseMesh mesh = contest_.mesh(saving);
+        entries.push_back(denseEntry("dense mesh, raw", mesh, contest_.errorOf(saving)));
         entries.back().details = {number("rate", rate)};
-        addEncoded(entries, "dense mesh", *entries.back().mesh, tolerance);
+        addEncoded(entries, "dense mesh", mesh, tolerance);
     }
 
     void addSimplified(std::vector<Entry>& entries, double tolerance) {
@@ -221,9 +225,8 @@ private:
     }
 
     /// A chain of simpler and simpler meshes, the smallest first in the end.
-    void makeSimplified() {
+    void makeSimplified(double coarsest) {
         DenseMesh mesh = contest_.mesh(contest_.everything());
-        const double coarsest = 1e-3;
         for (int step = 0; step < 24; ++step) {
             const std::size_t before = mesh.indices.size() / 3;
             mesh = simplified(mesh, std::size_t(double(before) / std::sqrt(2.0)));
@@ -237,8 +240,10 @@ private:
 
     std::vector<Drawable> drawables(const std::vector<Entry>& entries) {
         std::vector<Drawable> all;
+        // Halves and 16 bits look as floats do.
         for (const Entry& entry : entries)
-            if (entry.saving || entry.mesh)
+            if (entry.mesh ||
+                (entry.saving && entry.saving->format != MapFormat::half && entry.saving->format != MapFormat::unorm16))
                 all.push_back({entry.name, entry.saving, entry.mesh ? &*entry.mesh : nullptr, entry.isTimed});
         return all;
     }

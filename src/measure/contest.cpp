@@ -24,8 +24,8 @@ Saving Contest::everything() const {
 }
 
 std::vector<int> Contest::sides() const {
-    std::vector<int> sides;
-    for (double side = subject_.height.width; side >= 16; side /= std::sqrt(2.0))
+    std::vector<int> sides{subject_.height.width};
+    for (double side = sides.front() / std::sqrt(2.0); side >= 16; side /= std::sqrt(2.0))
         sides.push_back(int(std::lround(side)));
     std::ranges::reverse(sides);
     return sides;
@@ -82,6 +82,15 @@ std::uint64_t Contest::surfaceBytes(int isolation) {
     if (bytes == 0)
         bytes = Model(device_, {.surface = &surface(isolation), .cagePositions = subject_.cage.positions}).byteCount();
     return bytes;
+}
+
+double Contest::heightRms() const {
+    const HeightMap& map = subject_.height;
+    double sum = 0, squares = 0;
+    for (const float texel : map.texels) sum += texel, squares += double(texel) * texel;
+    const double mean = sum / double(map.texels.size());
+    return std::abs(map.scale) * std::sqrt(std::max(0.0, squares / double(map.texels.size()) - mean * mean)) /
+           diagonal_;
 }
 
 double Contest::formatError(int side, MapFormat format) {

@@ -40,6 +40,7 @@ public:
     const MeshError& errorOf(const Saving& saving); ///< measured once
     const MeshCounts& countsOf(const Saving& saving);
     std::uint64_t surfaceBytes(int isolation); ///< on the device, without a map
+    [[nodiscard]] double heightRms() const;    ///< of the map's heights about their mean, as a fraction of the diagonal
     /// Of heights alone, as a fraction of the diagonal: what a format loses.
     double formatError(int side, MapFormat format);
 

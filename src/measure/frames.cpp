@@ -55,15 +55,14 @@ Cage repeated(const Cage& cage, int count) {
 
 /// Preparation against the faces of the cage.
 void measurePreparation(Bench& bench, const Subject& subject) {
-    const double most = bench.options.isQuick ? 6e3 : 1e5;
     int previous = 0;
-    for (double faces = double(subject.cage.faceCount()); faces <= 1.2 * most; faces *= 4) {
-        const int copies = int(std::lround(std::min(faces, most) / double(subject.cage.faceCount())));
-        if (copies == previous) break;
+    for (const double faces : {0.0, 6e3, 2.4e4, 1e5}) {
+        const int copies = std::max(1, int(std::lround(faces / double(subject.cage.faceCount()))));
+        if (copies == previous || faces > (bench.options.isQuick ? 6e3 : 1e5)) continue;
         previous = copies;
         const Cage cage = repeated(subject.cage, copies);
         std::vector<double> tables, upload;
-        for (int round = 0; round < (faces < 2e4 ? 3 : 1); ++round) {
+        for (int round = 0; round < (faces < 2e4 && !bench.options.isQuick ? 3 : 1); ++round) {
             Surface surface;
             tables.push_back(millisecondsOf([&] { surface = buildSurface(cage, subject.surface); }));
             upload.push_back(millisecondsOf(
@@ -99,7 +98,7 @@ void measureScaling(Bench& bench, const Subject& subject) {
     for (const double triangles : {3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7}) {
         bench.progress.advance();
         const int rate = on.rateFor(triangles);
-        if (rate == previous || triangles > (bench.options.isQuick ? 1e5 : 1e7)) continue;
+        if (rate == previous || triangles > (bench.options.isQuick ? 3e4 : 1e7)) continue;
         previous = rate;
         std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
         std::unique_ptr<Model> dense;
@@ -107,7 +106,9 @@ void measureScaling(Bench& bench, const Subject& subject) {
             dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
             all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
         }
-        drawRounds(renderer, on.views, triangles > 2e6 ? 3 : bench.options.isQuick ? 3 : 5, all);
+        if (triangles > 5e6)
+            std::erase_if(all, [](const Drawn& drawn) { return drawn.options.path == Path::tessellation; });
+        drawRounds(renderer, on.views, triangles > 2e6 ? 0 : 3, all);
         for (Drawn& drawn : all) {
             Row row{"scaling", subject.name, drawn.name, "triangles", double(drawn.last.triangleCount), {}};
             drawn.tell(row);

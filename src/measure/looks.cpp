@@ -80,11 +80,12 @@ void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
         timed.push_back({.name = drawable.name, .model = model.get(), .options = options});
         models.push_back(std::move(model));
     }
-    drawRounds(renderer_, views_, bench_.options.isQuick ? 2 : 5, timed);
+    drawRounds(renderer_, views_, bench_.options.isQuick ? 2 : 3, timed);
     for (const Drawn& drawn : timed) looks_[drawn.name].frame = drawn.wall;
     if (!std::exchange(hasPair_, true)) {
         addPair(tolerance, "dense mesh, raw", "cage + BC4 map");
-        addPair(tolerance, "dense mesh, raw", "cage + 16 bit map");
+        addPair(tolerance, "dense mesh, raw", "cage + float map");
+        addPair(tolerance, "simplified mesh, raw", "cage + float map");
     }
 }
 

@@ -10,7 +10,7 @@ struct Drawable {
     std::string name;
     std::optional<Saving> saving;
     const DenseMesh* mesh = nullptr;
-    bool isTimed = false; ///< the device holds it as its bytes say
+    bool isTimed = false; ///< the device holds it as its bytes say: others only have their picture compared
 };
 
 class Looks {

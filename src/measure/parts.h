@@ -35,7 +35,7 @@ struct Bench {
     Progress& progress;
 
     [[nodiscard]] int pictureSide() const { return options.isQuick ? 512 : 1024; }
-    [[nodiscard]] int roundCount() const { return options.isQuick ? 3 : 7; }
+    [[nodiscard]] int roundCount() const { return options.isQuick ? 3 : 5; }
 };
 
 double diagonalOf(const Cage& cage);
@@ -78,7 +78,8 @@ struct Drawn {
     /// Adds times and counts, and what the model of bytes says of a dense mesh or a surface.
     void tell(Row& row) const;
 };
-/// Rounds that draw every contestant once, after one that is not measured.
+/// Rounds that draw every contestant once, after one that is not measured; 0: that one alone, and it is measured, for
+/// shaders that are compiled already.
 void drawRounds(Renderer& renderer, std::span<const Camera> views, int roundCount, std::span<Drawn> all);
 
 // --- suites, in the order in which they run; those of the device take the first subject

@@ -1,73 +1,26 @@
 // The suites `memory` and `startup`: what the process takes beside the buffers that it lists, and what a cold start
 // costs.
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 
-#include <malloc.h>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <nlohmann/json.hpp>
 
 #include "measure/parts.h"
 
 namespace relief {
 namespace {
 
-/// A line of /proc/self/status in bytes; 0 where there is none.
-std::uint64_t statusBytes(const std::string& name) {
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;)
-        if (std::uint64_t kib = 0; word == name + ":" && status >> kib) return kib * 1024;
-    return 0;
-}
-
-/// From now on the peak of resident memory counts anew; false where the system cannot.
-bool resetPeak() {
-    std::ofstream file("/proc/self/clear_refs");
-    file << 5 << std::flush;
-    return file.good();
-}
-
-/// A frame of so many triangles: the buffers it lists, and by how much the process grows.
-void measureFrameMemory(Bench& bench, const Subject& subject, Path path, const char* name) {
-    malloc_trim(0);
-    if (!resetPeak()) {
-        bench.results.notes.emplace_back("memory: the system does not tell the peak of resident memory");
-        return;
-    }
-    const std::uint64_t before = statusBytes("VmRSS"), allocatedBefore = bench.device.allocatedBytes();
-    const OnDevice on(bench.device, subject);
-    Row row{.suite = "memory", .scene = subject.name, .contestant = name};
-    const std::uint64_t model = bench.device.allocatedBytes() - allocatedBefore;
-    Renderer renderer(bench.device, {.width = bench.pictureSide(), .height = bench.pictureSide(), .shadowSide = 1});
-    const std::uint64_t targets = bench.device.allocatedBytes() - allocatedBefore - model;
-    RenderOptions options = on.renderOptions(on.rateFor(bench.options.isQuick ? 3e5 : 1e7));
-    options.path = path;
-    malloc_trim(0);
-    bench.device.startPeak();
-    const FrameStats stats = renderer.render(on.model, options).stats;
-    const std::uint64_t listed = bench.device.peakBytes() - allocatedBefore;
-    const std::uint64_t peak = statusBytes("VmHWM"), grown = peak - std::min(before, peak);
-    row.add("triangles", "triangles", Origin::measured, double(stats.triangleCount));
-    row.add("surface and map", "bytes", Origin::measured, double(model));
-    row.add("picture", "bytes", Origin::measured, double(targets));
-    row.add("this frame's buffers", "bytes", Origin::measured, double(listed - model - targets));
-    row.add("all buffers", "bytes", Origin::measured, double(listed));
-    row.add("grown by", "bytes", Origin::measured, double(grown));
-    row.add("process before", "bytes", Origin::measured, double(before));
-    row.add("grown to listed", "ratio", Origin::measured, double(grown) / double(listed));
-    bench.results.rows.push_back(row);
-}
-
 struct Run {
     double milliseconds = 0;
     std::uint64_t peakBytes = 0;
 };
 
-/// Runs a program to its end, with Mesa's shader cache or without.
-Run runProgram(const std::vector<std::string>& words, bool isCold) {
+/// Runs a program to its end, what it prints into a file, with Mesa's shader cache or without.
+Run runProgram(const std::vector<std::string>& words, const std::string& output, bool isCold) {
     Run run;
     rusage usage{};
     int status = 0;
@@ -75,6 +28,8 @@ Run runProgram(const std::vector<std::string>& words, bool isCold) {
         const pid_t child = fork();
         if (child == 0) {
             if (isCold) setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+            const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+            if (file < 0 || dup2(file, STDOUT_FILENO) < 0) _exit(127);
             std::vector<char*> arguments;
             for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
             arguments.push_back(nullptr);
@@ -88,45 +43,87 @@ Run runProgram(const std::vector<std::string>& words, bool isCold) {
     return run;
 }
 
-/// The command line of a whole `relief render` of the subject.
-std::vector<std::string> renderWords(const Bench& bench, const Subject& subject, const ScratchFolder& folder) {
-    writeObj(folder / "cage.obj", subject.cage);
-    writeImage(folder / "map.exr", {subject.height.width, subject.height.height, 1, subject.height.texels},
-               SampleType::real);
-    std::vector<std::string> words{bench.options.program, "render", folder / "cage.obj", "--height",
-                                   folder / "map.exr"};
-    for (const std::string& word :
-         {std::string("--scale"), fmt::format("{}", subject.height.scale), std::string("--mid"),
-          fmt::format("{}", subject.height.mid), std::string("--edge-pixels"), std::string("4"),
-          std::string("--no-shadows"), std::string("-q"), std::string("-o")})
-        words.push_back(word);
-    words.push_back(folder / "picture.png");
-    return words;
+/// A subject in files, for a process of its own.
+class RenderRuns {
+public:
+    RenderRuns(const Bench& bench, const Subject& subject) : bench_(bench), subject_(subject) {
+        writeObj(folder_ / "cage.obj", subject.cage);
+        writeImage(folder_ / "map.exr", {subject.height.width, subject.height.height, 1, subject.height.texels},
+                   SampleType::real);
+    }
+
+    /// `relief render` with these further words; what it says of itself goes into `said`.
+    Run render(std::vector<std::string> more, bool isCold, nlohmann::json* said = nullptr) const {
+        std::vector<std::string> words{bench_.options.program, "render", folder_ / "cage.obj"};
+        const HeightMap& map = subject_.height;
+        for (const auto& [option, value] : {std::pair<const char*, std::string>{"--height", folder_ / "map.exr"},
+                                            {"--scale", fmt::format("{}", map.scale)},
+                                            {"--mid", fmt::format("{}", map.mid)},
+                                            {"--wrap", map.wrap == Wrap::repeat ? "repeat" : "clamp"},
+                                            {"--isolation", fmt::format("{}", subject_.surface.isolation)},
+                                            {"--device", bench_.options.device},
+                                            {"-o", folder_ / "picture.png"}})
+            if (!value.empty()) words.insert(words.end(), {option, value});
+        words.insert(words.end(), {"--no-shadows", "-q", "--json"});
+        words.insert(words.end(), more.begin(), more.end());
+        const Run run = runProgram(words, folder_ / "said.json", isCold);
+        if (said != nullptr) *said = nlohmann::json::parse(readFile(folder_ / "said.json"));
+        return run;
+    }
+
+private:
+    const Bench& bench_;
+    const Subject& subject_;
+    ScratchFolder folder_;
+};
+
+/// A frame of many triangles in a process of its own, less what the same frame of few takes: how much of the growth is
+/// in the buffers that are listed.
+void measureFrameMemory(Bench& bench, const Subject& subject, const RenderRuns& runs, const std::string& path,
+                        int rate) {
+    nlohmann::json few, many;
+    const std::uint64_t fewPeak = runs.render({"--path", path, "--rate", "1"}, false, &few).peakBytes;
+    const std::uint64_t manyPeak =
+        runs.render({"--path", path, "--rate", fmt::format("{}", rate)}, false, &many).peakBytes;
+    Row row{.suite = "memory", .scene = subject.name, .contestant = path == "dice" ? "dicing" : path};
+    const double listed = many.at("peak_device_bytes"), listedFew = few.at("peak_device_bytes");
+    const double grown = double(manyPeak) - double(fewPeak);
+    row.add("triangles", "triangles", Origin::measured, many.at("triangles").get<double>());
+    row.add("surface and map", "bytes", Origin::measured, many.at("device_bytes").get<double>());
+    row.add("all buffers", "bytes", Origin::measured, listed);
+    row.add("all buffers, rate 1", "bytes", Origin::measured, listedFew);
+    row.add("process at most", "bytes", Origin::measured, double(manyPeak));
+    row.add("process at most, rate 1", "bytes", Origin::measured, double(fewPeak));
+    row.add("grown and first buffers to all buffers", "ratio", Origin::computed, (grown + listedFew) / listed);
+    bench.results.rows.push_back(row);
 }
 
 } // namespace
 
 void measureMemory(Bench& bench, const Subject& subject) {
-    measureFrameMemory(bench, subject, Path::dice, "dicing");
-    measureFrameMemory(bench, subject, Path::grid, "grid");
+    const RenderRuns runs(bench, subject);
+    const int rate = OnDevice(bench.device, subject).rateFor(bench.options.isQuick ? 1e5 : 1e7);
+    measureFrameMemory(bench, subject, runs, "dice", rate);
+    measureFrameMemory(bench, subject, runs, "grid", rate);
     bench.progress.advance();
 }
 
 void measureStartup(Bench& bench, const Subject& subject) {
-    const ScratchFolder folder;
-    const std::vector<std::string> words = renderWords(bench, subject, folder);
+    const RenderRuns runs(bench, subject);
     const OnDevice on(bench.device, subject);
     Renderer renderer(bench.device, {.width = 1024, .height = 1024});
     RenderOptions options = on.renderOptions(1);
+    const std::string pixels = bench.options.isQuick ? "16" : "4";
     options.rate.reset();
-    options.edgePixels = 4;
+    options.edgePixels = std::stod(pixels);
+    if (!bench.device.traits().hasTessellation) options.path = Path::grid;
     renderer.render(on.model, options);
     std::vector<double> cold, cached, frame, tables, device, peak;
-    for (int round = 0; round < (bench.options.isQuick ? 1 : 5); ++round) {
-        const Run first = runProgram(words, true);
+    for (int round = 0; round < (bench.options.isQuick ? 1 : 3); ++round) {
+        const Run first = runs.render({"--edge-pixels", pixels}, true);
         cold.push_back(first.milliseconds);
         peak.push_back(double(first.peakBytes));
-        cached.push_back(runProgram(words, false).milliseconds);
+        cached.push_back(runs.render({"--edge-pixels", pixels}, false).milliseconds);
         device.push_back(millisecondsOf([&] { const Device another({.name = bench.options.device}); }));
         tables.push_back(1e3 * buildSurface(subject.cage, subject.surface).tableSeconds);
         frame.push_back(renderer.render(on.model, options).stats.wallMs);

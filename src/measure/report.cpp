@@ -39,12 +39,11 @@ std::string cellOf(const Value& value) {
 }
 
 std::string goalTable(const std::vector<Goal>& goals) {
-    std::string html =
-        "<div class=\"scroll\"><table><tr><th class=\"words\">figure to reach</th><th class=\"words\">scene"
-        "</th><th>wanted</th><th>found</th><th></th></tr>";
+    std::string html = "<div class=\"scroll\"><table><tr><th class=\"words\">figure to reach</th><th>wanted</th>"
+                       "<th>found</th><th></th></tr>";
     for (const Goal& goal : goals)
-        html += fmt::format("<tr><td class=\"words\">{}</td><td class=\"words\">{}</td><td>{} {:.4g}{}</td>"
-                            "<td>{:.3g}{}</td><td class=\"{}\">{}</td></tr>",
+        html += fmt::format("<tr><td class=\"words\">{}<br><small>{}</small></td><td>{} {:.4g}{}</td><td>{:.3g}{}</td>"
+                            "<td class=\"{}\">{}</td></tr>",
                             escaped(goal.what), escaped(goal.scene), goal.isAtLeast ? "≥" : "≤", goal.wanted, goal.unit,
                             goal.found, goal.unit, goal.isMet() ? "good" : "bad", goal.isMet() ? "met" : "missed");
     return html + "</table></div>";
@@ -161,11 +160,12 @@ std::string reportOf(const Results& results) {
     html += section(results, "frame", "A frame of a million triangles", "Passes as the device timed them.", "", false);
     html +=
         section(results, "animate", "Animation", "What a new pose sends to the device.", animateFigures(results), true);
-    html +=
-        section(results, "memory", "Memory",
-                "The buffers that one frame of ten million triangles lists, and by how much the process grew for it "
-                "at most.",
-                "", false);
+    html += section(
+        results, "memory", "Memory",
+        "The buffers that one frame of ten million triangles lists, and the most resident memory of the process "
+        "that draws it, beside the same process with one segment an edge. With a CPU driver that is the "
+        "driver's memory, too: lavapipe keeps the triangles that it has binned and not yet drawn.",
+        "", false);
     html += section(results, "startup", "Starting up", "A whole relief render of a process of its own.", "", false);
     html += "<h2>What the numbers assume</h2>" + assumptions() + notesOf(results);
     html += "<h2>This run</h2>" + keyTable(results) + "</body></html>\n";

@@ -80,11 +80,15 @@ std::pair<std::string, Cage> builtInCage() {
 std::vector<Subject> builtInSubjects(bool isQuick) {
     const auto [name, cage] = builtInCage();
     const double diagonal = diagonalOf(cage);
-    const HeightMap smooth = painted(cage, isQuick ? 512 : 2048, 0.008 * diagonal, Waves(24, 0.03 * diagonal));
+    // The shortest wave is about eight edges of a mesh of a million triangles long; a quick run has a sixteenth of
+    // them.
+    const double coarser = isQuick ? 4 : 1;
+    const HeightMap smooth =
+        painted(cage, isQuick ? 512 : 2048, 0.003 * coarser * diagonal, Waves(24, 0.01 * coarser * diagonal));
     std::vector<float> plates;
     for (const float wave : smooth.texels) plates.push_back(crispOf(wave));
     const HeightMap crisp =
-        makeHeightMap(smooth.width, smooth.height, std::move(plates), 0, 0.004 * diagonal, smooth.wrap);
+        makeHeightMap(smooth.width, smooth.height, std::move(plates), 0, 0.5 * smooth.scale, smooth.wrap);
     return {{name + ", smooth noise", cage, {}, smooth}, {name + ", crisp plates", cage, {}, crisp}};
 }
 

@@ -20,7 +20,7 @@ h3 { font-size: 1.02rem; margin: 1.4rem 0 .3rem; } p, ul.words { max-width: 46re
 figure { margin: 0; min-width: 0; } figcaption b { display: block; font-size: .95rem; }
 figcaption .y { color: var(--soft); font-size: .82rem; }
 svg.plot { display: block; width: 100%; height: auto; }
-svg text { fill: var(--soft); font-size: 12.5px; } svg text.note { font-style: italic; } svg text.label { fill: var(--ink); }
+svg text { fill: var(--soft); font-size: 12.5px; } svg text.note { font-style: italic; paint-order: stroke; stroke: var(--paper); stroke-width: 4px; } svg text.label { fill: var(--ink); }
 .grid { stroke: var(--grid); } .axis { stroke: var(--soft); fill: none; }
 .rule { stroke: var(--ink); stroke-width: 1.5; } .loss { fill: var(--bad); opacity: .07; }
 .line { fill: none; stroke-width: 2; } .line.thin { stroke-width: 1.2; opacity: .8; } .band { opacity: .13; }
@@ -34,7 +34,8 @@ ul.legend svg { width: 34px; height: 12px; margin-right: .35rem; vertical-align:
 .scroll { overflow-x: auto; margin: .5rem 0; } table { border-collapse: collapse; font-size: .84rem; }
 th, td { padding: .22rem .6rem; text-align: right; border-bottom: 1px solid var(--grid); white-space: nowrap; }
 th { color: var(--soft); font-weight: 600; vertical-align: bottom; white-space: normal; min-width: 4.2rem; }
-th:first-child, td:first-child, td.words, th.words { text-align: left; } td.words { white-space: normal; min-width: 11rem; }
+th:first-child, td:first-child, td.words, th.words { text-align: left; } td.words { white-space: normal; min-width: 9rem; }
+@media (max-width: 30rem) { th, td { padding: .22rem .35rem; } table { font-size: .8rem; } }
 td small { color: var(--soft); } td.computed::after { content: "\2009\2217"; color: var(--soft); }
 .good { color: var(--good); font-weight: 600; } .bad { color: var(--bad); font-weight: 600; }
 .strip { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 14rem), 1fr)); gap: .6rem; margin: .5rem 0 1.2rem; }

@@ -100,6 +100,8 @@ Results runSuites(std::span<const std::string> suites, std::span<const Subject> 
         results.settings[fmt::format("seconds of {}", suite.name)] = fmt::format("{:.0f}", ms / 1e3);
         malloc_trim(0);
     }
+    if (const std::size_t count = device.validationMessages().size(); count > 0)
+        fail(Failure::internal, "the Vulkan validation layer has {} complaints", count);
     return results;
 }
 
