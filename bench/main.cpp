@@ -12,6 +12,7 @@
 #include "timing.h"
 #ifdef RELIEF_EVALUATORS
 #include "evaluators.h"
+#include "posing.h"
 #endif
 
 namespace {
@@ -196,6 +197,9 @@ int main(int argc, char** argv) {
             return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
         };
         if (runs("dice")) benchDice();
+#ifdef RELIEF_EVALUATORS
+        if (runs("posing")) bench::benchPosing();
+#endif
         if (runs("split")) benchSplit();
         return 0;
     } catch (const relief::Error& error) {

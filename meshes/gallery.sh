@@ -41,3 +41,10 @@ picture bricks cube --height "$maps/bricks.exr" --albedo "$maps/bricks_albedo.pn
 picture wireframe octopus --height "$maps/octopus.exr" --show wireframe --azimuth -10 --elevation 12 --fov 24 \
     --edge-pixels 10 --size 1280,800
 rm -f "$out/stats.json"
+
+# Per frame only the cage's 1958 points go to the device.
+"$relief" animate "$meshes/octopus.obj" --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
+    --deform "twist(axis=y, angle=35*sin(pi*t)) wave(axis=x, amplitude=0.035, wavelength=0.5, speed=0.25, along=y) \
+        squash(axis=y, amount=0.08*sin(2*pi*t))" \
+    --frames 0:47 --azimuth -10 --elevation 14 --fov 24 --edge-pixels 2 --spacing fractional --size 560,350 \
+    -o "$out/octopus.webp"

@@ -110,10 +110,24 @@ void mendTangents(inout LimitFrame f, vec2 uv, float leafScale) {
     f.pv = vec3(0, 0, -1);
 }
 
+// A point of the limit surface, not displaced yet.
+struct SurfacePoint {
+    LimitFrame frame;
+    TexFrame tex;
+    vec3 n;          // unit normal
+    float area;      // |p_u x p_v|
+    float stretch;   // what heights are multiplied with: 1 unless they stretch with the surface
+    vec2 logStretch; // derivatives of its logarithm by (u,v)
+};
+
 // The normal asked for by --normal, not yet unit.
-vec3 displacedNormal(LimitFrame f, vec3 n, float area, HeightSample height, mat2 jacobian) {
+vec3 displacedNormal(SurfacePoint point, HeightSample height) {
+    LimitFrame f = point.frame;
+    vec3 n = point.n;
+    float area = point.area;
     if (kNormal == kNormalLimit || !kHasHeight) return n;
-    vec2 dh = heightGradient(height.gradient, jacobian);
+    vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
+    if (kStretches) dh += height.h * point.logStretch;
     if (kNormal == kNormalFirstOrder) return firstOrderNormal(n, f.pu, f.pv, dh);
     vec3 nu = normalDerivative(n, area, f.pu, f.pv, f.puu, f.puv);
     vec3 nv = normalDerivative(n, area, f.pu, f.pv, f.puv, f.pvv);
@@ -141,35 +155,54 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     return patchFrame(true, fetchPatch(leaf.patchIndex), leaf.uv).p.xy;
 }
 
-// A point of the limit surface, not displaced yet.
-struct SurfacePoint {
-    LimitFrame frame;
-    TexFrame tex;
-    vec3 n;          // unit normal
-    float area;      // |p_u x p_v|
-};
+// How much the surface has grown since rest, as a length.
+void addStretch(inout SurfacePoint point, LimitFrame rest, vec2 uv, float leafScale) {
+    mendTangents(rest, uv, leafScale);
+    precise vec3 restNormal = cross(rest.pu, rest.pv);
+    precise float restArea = length(restNormal);
+    precise float stretch = stretchOf(point.area, restArea);
+    point.stretch = stretch;
+    if (stretch >= kMostStretch) return;
+    LimitFrame f = point.frame;
+    vec3 n0 = restNormal / restArea;
+    vec2 areaSlope = vec2(areaDerivative(point.n, f.pu, f.pv, f.puu, f.puv), areaDerivative(point.n, f.pu, f.pv, f.puv, f.pvv));
+    vec2 restSlope = vec2(areaDerivative(n0, rest.pu, rest.pv, rest.puu, rest.puv),
+                          areaDerivative(n0, rest.pu, rest.pv, rest.puv, rest.pvv));
+    point.logStretch = 0.5 * (areaSlope / point.area - restSlope / restArea);
+}
 
 SurfacePoint surfacePoint(Patch patch_, Leaf leaf, vec2 uv, bool wantsTexture) {
     SurfacePoint point;
     point.tex = TexFrame(uv, mat2(1.0));
-    // One call for both kinds of patch: the compiler unfolds every call, and compiling is part of a cold start.
-    uint kinds = wantsTexture && kHasTexCoords && (kHasHeight || kWantsTexCoords) ? 2u : 1u;
-    for (uint kind = 0u; kind < kinds; ++kind) {
-        LimitFrame f = byFace(patchFrame(kind == 1u, patch_, leaf.uv), leaf.scale);
+    point.stretch = 1.0;
+    point.logStretch = vec2(0);
+    // One call for all kinds of patch: the compiler unfolds every call, and compiling is part of a cold start.
+    bool hasTexture = wantsTexture && kHasTexCoords && (kHasHeight || kWantsTexCoords);
+    bool hasRest = kStretches && wantsTexture && kHasHeight;
+    LimitFrame rest = kNoFrame;
+    uint textureKind = hasTexture ? 1u : 0u, restKind = textureKind + (hasRest ? 1u : 0u), own = pose;
+    for (uint kind = 0u; kind <= restKind; ++kind) {
+        bool isTexture = kind > 0u && kind == textureKind;
+        if (hasRest && kind == restKind) pose = scene.pointsRest;
+        LimitFrame f = byFace(patchFrame(isTexture, patch_, leaf.uv), leaf.scale);
         if (kind == 0u) point.frame = f;
-        else point.tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
+        else if (isTexture) point.tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
+        else rest = f;
     }
+    pose = own;
     mendTangents(point.frame, uv, leaf.scale);
-    vec3 areaNormal = cross(point.frame.pu, point.frame.pv);
-    point.area = length(areaNormal);
-    precise vec3 n = areaNormal / point.area;
+    precise vec3 areaNormal = cross(point.frame.pu, point.frame.pv);
+    precise float area = length(areaNormal);
+    precise vec3 n = areaNormal / area;
+    point.area = area;
     point.n = n;
+    if (hasRest) addStretch(point, rest, uv, leaf.scale);
     return point;
 }
 
 // What belongs to the face that a point is seen from.
 void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
-    s.normal = displacedNormal(point.frame, point.n, point.area, height, point.tex.jacobian);
+    s.normal = displacedNormal(point, height);
     s.st = point.tex.st;
     s.frame = point.frame;
     s.n = point.n;
@@ -177,9 +210,12 @@ void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample hei
     s.jacobian = point.tex.jacobian;
 }
 
-HeightSample heightAt(vec2 st, float level) {
-    if (kHasHeight) return sampleHeight(st, level);
-    return HeightSample(0.0, vec2(0));
+HeightSample heightAt(SurfacePoint point, float level) {
+    if (!kHasHeight) return HeightSample(0.0, vec2(0));
+    HeightSample height = sampleHeight(point.tex.st, level);
+    if (!kStretches) return height;
+    precise float h = point.stretch * height.h;
+    return HeightSample(h, point.stretch * height.gradient);
 }
 
 // Walks the faces that meet at the place, in the edge's fixed order: one of them where the surface is smooth, all where
@@ -205,7 +241,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
         direction += point.n;
         if (isUsed) {
             isOwn = touch.face == face;
-            HeightSample height = heightAt(point.tex.st, place.level);
+            HeightSample height = heightAt(point, place.level);
             if (i == 0u) {
                 s.p = point.frame.p;
                 s.h = height.h;
@@ -227,7 +263,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
 DisplacedSample displacedInLeaf(Patch patch_, Leaf leaf, vec2 uv, float level) {
     DisplacedSample s;
     SurfacePoint point = surfacePoint(patch_, leaf, uv, true);
-    HeightSample height = heightAt(point.tex.st, level);
+    HeightSample height = heightAt(point, level);
     addAttributes(s, point, height);
     s.p = point.frame.p;
     s.h = height.h;

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "scene.glsl"
+#include "octahedral.glsl"
 
 // Light on the samples that surface.frag left: once a pixel inside the surface, once a sample where its depth jumps.
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -80,13 +81,6 @@ vec3 shaded(vec3 position, vec3 n, vec3 v, vec3 albedo) {
         specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), scene.roughness, f0);
     }
     return scene.exposure * (albedo * diffuse + specular);
-}
-
-vec3 fromOctahedral(vec2 p) {
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    float fold = max(-n.z, 0.0);
-    n.xy -= fold * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
-    return normalize(n);
 }
 
 vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color) {

@@ -17,7 +17,7 @@ void main() {
     precise vec4 clip = project(vertex.xyz);
     gl_Position = clip;
     vNormal = texelFetch(meshTexels, 2 * gl_VertexIndex + 1).xyz;
-    vTexCoord = kHasTexCoords && kWantsTexCoords ? texelFetch(meshTexCoordTexels, gl_VertexIndex).xy : vec2(0);
+    vTexCoord = vec4(kHasTexCoords && kWantsTexCoords ? texelFetch(meshTexCoordTexels, gl_VertexIndex).xy : vec2(0), vec2(0));
     vHeight = vertex.w;
     // Draws of a face each carry its number; a whole mesh in one draw has patches of 64 vertices instead.
     vFace = passRows > 0u ? recordTexel(scene.firstFace, kFaceTexels, passFirst, 1u).y : uint(gl_VertexIndex) / 64u;

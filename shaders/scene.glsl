@@ -24,6 +24,11 @@ layout(set = 0, binding = kBindEdgeRates) uniform samplerBuffer edgeRateTexels;
 layout(set = 0, binding = kBindDrawFaces) uniform usamplerBuffer drawFaceTexels;
 layout(set = 0, binding = kBindLevels) uniform samplerBuffer levelTexels;
 
+layout(constant_id = 10) const bool kStretches = false; // heights grow with the surface since scene.pointsRest
+
+// The pose that patches are evaluated in: this frame's, unless a stage asks for another one.
+uint pose = scene.pointsNow;
+
 uvec4 recordTexel(uint first, uint texels, uint index, uint texel) {
     return texelFetch(recordTexels, int(first + texels * index + texel));
 }
@@ -60,7 +65,7 @@ uint treeEntry(uint i) { return texelFetch(wordTexels, int(i)).x; }
 
 vec3 patchPoint(uint i) {
     uint point = texelFetch(wordTexels, int(scene.firstPatchPoint + i)).x;
-    return texelFetch(pointTexels, int(point)).xyz;
+    return texelFetch(pointTexels, int(pose + point)).xyz;
 }
 
 vec2 texPatchPoint(uint i) {

@@ -3,6 +3,7 @@
 #include "scene.glsl"
 #define RELIEF_VARYING in
 #include "varyings.glsl"
+#include "octahedral.glsl"
 
 // Writes what light.comp needs of the surface, four samples a pixel, and no more: dense triangles are about a pixel large,
 // and what is done here is done several times a pixel.
@@ -14,13 +15,6 @@ layout(set = 0, binding = kBindAlbedo) uniform sampler2D albedoMap;
 
 layout(location = 0) out vec2 normal; // octahedral
 layout(location = 1) out vec4 color;  // albedo, or with --show what is seen
-
-// Cigolle et al. (2014), "Survey of Efficient Representations for Independent Unit Vectors".
-vec2 octahedral(vec3 n) {
-    vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
-    vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
-    return n.z < 0.0 ? folded : p;
-}
 
 // A calm diverging map: blue below, white at rest, orange above.
 vec3 heightColor(float x) {

@@ -1,6 +1,6 @@
 // What the stages that make triangles hand to surface.frag. RELIEF_VARYING is in or out.
 layout(location = 0) RELIEF_VARYING vec3 vNormal;
-layout(location = 1) RELIEF_VARYING vec2 vTexCoord;
+layout(location = 1) RELIEF_VARYING vec4 vTexCoord; // (s,t), and for layers the face's own (u,v)
 layout(location = 2) RELIEF_VARYING float vHeight;
-layout(location = 3) flat RELIEF_VARYING uint vFace; // of the cage
+layout(location = 3) flat RELIEF_VARYING uint vFace; // of the cage; for layers that of the surface
 layout(location = 4) flat RELIEF_VARYING uint vRate; // largest of the face's sides

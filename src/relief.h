@@ -11,4 +11,5 @@
 #include "gpu/gpu.h"
 #include "measure/measure.h"
 #include "model/model.h"
+#include "pose/pose.h"
 #include "surface/surface.h"

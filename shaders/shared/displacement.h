@@ -8,9 +8,14 @@
 #include "shared/types.h"
 
 #ifdef __cplusplus
+#include <cmath>
+#endif
+
+#ifdef __cplusplus
 namespace relief::formulas {
 using glm::cross;
 using glm::dot;
+using std::sqrt;
 #endif
 
 // (h_u, h_v) = (h_s, h_t) J by the chain rule; J has columns d(s,t)/du and d(s,t)/dv.
@@ -28,6 +33,11 @@ RELIEF_SHARED_FUNCTION real3 normalDerivative(real3 n, real area, real3 pu, real
     return (c - n * dot(n, c)) / area;
 }
 
+// Derivative of the area |p_u x p_v| of the same: n . (p_uu x p_v + p_u x p_uv).
+RELIEF_SHARED_FUNCTION real areaDerivative(real3 n, real3 pu, real3 pv, real3 dpu, real3 dpv) {
+    return dot(n, cross(dpu, pv) + cross(pu, dpv));
+}
+
 // m = p_u x p_v + h_u (n x p_v) - h_v (n x p_u): Blinn (1978); Hart, "Perturbation of normals", eq. 16.3.
 RELIEF_SHARED_FUNCTION real3 firstOrderNormal(real3 n, real3 pu, real3 pv, real2 dh) {
     return cross(pu, pv) + dh.x * cross(n, pv) - dh.y * cross(n, pu);
@@ -36,6 +46,15 @@ RELIEF_SHARED_FUNCTION real3 firstOrderNormal(real3 n, real3 pu, real3 pv, real2
 // q_u = p_u + h_u n + h n_u  (Lee, Moreton, Hoppe 2000, section 3); m = q_u x q_v.
 RELIEF_SHARED_FUNCTION real3 displacedTangent(real3 pu, real3 n, real3 nu, real h, real hu) {
     return pu + hu * n + h * nu;
+}
+
+// Heights that stretch with the surface are sigma h with sigma = sqrt(A / A0), A = |p_u x p_v| here and A0 at rest; then
+// (sigma h)_u = sigma h_u + sigma h (log sigma)_u with (log sigma)_u = (A_u / A - A0_u / A0) / 2. No more than kMostStretch:
+// where the rest pose has no area there is no ratio.
+const real kMostStretch = 4.0;
+
+RELIEF_SHARED_FUNCTION real stretchOf(real area, real restArea) {
+    return area < kMostStretch * kMostStretch * restArea ? sqrt(area / restArea) : kMostStretch;
 }
 
 #ifdef __cplusplus

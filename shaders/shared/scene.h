@@ -66,6 +66,7 @@ RELIEF_CONSTANT uint kShowFaces = 4u;
 RELIEF_CONSTANT uint kShowWireframe = 5u; // the surface under the lines
 RELIEF_CONSTANT uint kShowLines = 6u;     // the lines themselves
 RELIEF_CONSTANT uint kShowCracks = 7u;    // front faces count up, back faces down: closed surfaces add up to 0
+RELIEF_CONSTANT uint kShowLayers = 8u;    // what layers.comp reads
 
 // --normal
 RELIEF_CONSTANT uint kNormalLimit = 0u;
@@ -73,7 +74,7 @@ RELIEF_CONSTANT uint kNormalFirstOrder = 1u;
 RELIEF_CONSTANT uint kNormalFull = 2u;
 
 struct Scene {
-    // Written through addresses: light.comp (four halves a pixel), rates.comp, sample.comp.
+    // Written through addresses: light.comp (four halves a pixel), rates.comp, sample.comp, ...
     RELIEF_ADDRESS(WordPairs) pictureTarget;
     RELIEF_ADDRESS(Floats) edgeRateTarget;
     RELIEF_ADDRESS(Queries) sampleQueries;
@@ -82,6 +83,7 @@ struct Scene {
     RELIEF_ADDRESS(Vectors) dicedVertices;   // as kBindMesh
     RELIEF_ADDRESS(Pairs) dicedTexCoords;
     RELIEF_ADDRESS(Words) dicedIndices;
+    RELIEF_ADDRESS(Floats) layerTarget;      // layers.comp: kLayerChannels floats a pixel
 
     // Where each array starts: texels of kBindRecords, words of kBindWords.
     uint firstFace;
@@ -94,6 +96,11 @@ struct Scene {
     uint firstFaceRuns;      // texels of kBindDiceTable; runs are at 0
     uint cornerRunCount;     // runs of one vertex: the first ones
     uint runCount;
+
+    // First texel of each pose in kBindPoints.
+    uint pointsNow;
+    uint pointsBefore;
+    uint pointsRest;
 
     // h = heightScale * (texel - heightMid) in cage units; a map of 0 x 0 is no displacement.
     ivec2 mapSize;
@@ -114,6 +121,7 @@ struct Scene {
 
     mat4 worldToClip;
     mat4 clipToWorld;
+    mat4 worldToClipBefore; // of the frame that motion is measured from
     ivec2 pictureSize;
     vec3 eye;
     float exposure;
@@ -133,8 +141,18 @@ struct Scene {
 
 RELIEF_CONSTANT uint kMostMapLevels = 16u;
 
+// What layers.comp leaves of a pixel, floats in this order: distance along the view (1e10 where nothing is seen), unit normal,
+// face of the cage (-1: none), texture coordinates, height, motion in pixels (x right, y down) since the frame before.
+RELIEF_CONSTANT uint kLayerDepth = 0u;
+RELIEF_CONSTANT uint kLayerNormal = 1u;
+RELIEF_CONSTANT uint kLayerFace = 4u;
+RELIEF_CONSTANT uint kLayerTexCoords = 5u;
+RELIEF_CONSTANT uint kLayerHeight = 7u;
+RELIEF_CONSTANT uint kLayerMotion = 8u;
+RELIEF_CONSTANT uint kLayerChannels = 10u;
+
 #ifdef __cplusplus
-static_assert(offsetof(Scene, firstFace) == 64 && offsetof(Scene, worldToClip) == 64 + 40 + 44 + 72);
+static_assert(offsetof(Scene, firstFace) == 72 && offsetof(Scene, worldToClip) == 72 + 40 + 12 + 44 + 72);
 } // namespace relief
 #endif
 #endif

@@ -33,7 +33,7 @@ std::vector<std::string> pathsOf(const CheckArgs& args, const DeviceTraits& trai
 class PathChecker {
 public:
     PathChecker(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args)
-        : device_(device), model_(model), args_(args), rater_(device),
+        : device_(device), model_(model), args_(args), rater_(device), capturer_(device),
           renderer_(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1}),
           canSeeCracks_(enclosesVolume(loaded.surface)) {
         const ReferenceSurface coarse(loaded.cage, {.scheme = loaded.options.scheme, .isolation = 2});
@@ -55,7 +55,7 @@ private:
     Watertightness checkTriangles(const TriangleOptions& options) {
         const View view = viewOf(frameCamera(points_, {}, 1), kPictureSide);
         const EdgeRates rates = rater_.rates(model_, options, view);
-        return checkWatertight(captureTriangles(device_, model_, options, rates), boundarySegments(model_, rates),
+        return checkWatertight(capturer_.capture(model_, options, rates), boundarySegments(model_, rates),
                                plannedTriangles(model_, options.path, rates));
     }
 
@@ -73,6 +73,7 @@ private:
     const Model& model_;
     const CheckArgs& args_;
     EdgeRater rater_;
+    Capturer capturer_;
     Renderer renderer_;
     bool canSeeCracks_;
     std::vector<dvec3> points_;
@@ -162,6 +163,7 @@ int check(const CheckArgs& args) {
 Run addCheck(CLI::App& app) {
     auto args = std::make_shared<CheckArgs>();
     addSurface(app, args->surface);
+    addTime(app, args->surface.pose);
     addPath(app, args->triangles.path, "all that the device has");
     addTriangles(app, args->triangles);
     app.add_option("--points", args->pointCount, "points that are compared with the reference, about (200000)")

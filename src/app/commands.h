@@ -12,6 +12,7 @@ namespace relief::app {
 using Run = std::function<int()>;
 
 Run addRender(CLI::App& app);
+Run addAnimate(CLI::App& app);
 Run addExport(CLI::App& app);
 Run addSample(CLI::App& app);
 Run addCheck(CLI::App& app);

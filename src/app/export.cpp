@@ -15,7 +15,7 @@ struct ExportArgs {
     TriangleArgs triangles{.path = "dice"};
     CameraArgs camera;
     Output output;
-    std::string target, device;
+    std::string target, device, heightSpace = "absolute";
 };
 
 /// A mesh and what is told of it, when everything that made it is gone.
@@ -41,8 +41,9 @@ Exported dice(const ExportArgs& args) {
              args.surface.cage);
     progress.advance();
     Device device({.name = args.device});
-    const Model model(
-        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    Model model(device,
+                {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    const std::unique_ptr<Poser> poser = stretchHeights(device, model, loaded, args.heightSpace);
     progress.advance();
 
     Exported exported{
@@ -107,9 +108,11 @@ int exportMesh(const ExportArgs& args) {
 Run addExport(CLI::App& app) {
     auto args = std::make_shared<ExportArgs>();
     addSurface(app, args->surface);
+    addTime(app, args->surface.pose);
     app.add_option("-o,--output", args->target, "mesh to write: .ply, .obj or .glb")->required()->option_text("MESH");
     addTriangles(app, args->triangles);
     addCamera(app, args->camera);
+    addHeightSpace(app, args->heightSpace);
     addDevice(app, args->device);
     addOutput(app, args->output);
     app.footer("the camera is what --edge-pixels are seen by\n"

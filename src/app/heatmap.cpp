@@ -8,7 +8,7 @@
 namespace relief::app {
 namespace {
 
-constexpr int kPictureSide = 1024;
+constexpr int kHeatmapSide = 1024;
 constexpr double kDecades = 1; // of errors, from white to what is promised: rounding alone stays white
 
 /// A value that is not finite is as wrong as can be.
@@ -85,7 +85,7 @@ Picture drawHeatmap(Device& device, const DenseMesh& mesh) {
     options.lighting.castsShadows = false;
     for (const dvec3& p : points) options.bounds.add(p);
     const Model model(device, {.dense = &mesh});
-    Renderer renderer(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1});
+    Renderer renderer(device, {.width = kHeatmapSide, .height = kHeatmapSide, .shadowSide = 1});
     return renderer.render(model, options);
 }
 

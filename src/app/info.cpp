@@ -115,7 +115,10 @@ json ofDevices() {
     return list;
 }
 
-bool isCage(const std::string& path) { return path.ends_with(".obj") || path.ends_with(".OBJ"); }
+bool isCage(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".obj" || extension == ".gltf" || extension == ".glb";
+}
 
 std::string text(const json& value) {
     if (value.is_string()) return value.get<std::string>();
@@ -176,7 +179,7 @@ int info(const InfoArgs& args) {
 
 Run addInfo(CLI::App& app) {
     auto args = std::make_shared<InfoArgs>();
-    app.add_option("files", args->files, "cages (.obj), height maps, pictures")->option_text("FILE...");
+    app.add_option("files", args->files, "cages (.obj .gltf .glb), height maps, pictures")->option_text("FILE...");
     addSurfaceOptions(app, args->surface);
     app.add_flag("--devices", args->listsDevices, "the Vulkan devices of this machine");
     app.add_flag("--json", args->isJson, "print as JSON on stdout");

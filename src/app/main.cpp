@@ -21,6 +21,7 @@ struct Command {
 
 constexpr Command kCommands[] = {
     {"render", "one picture of a displaced cage, or of a dense mesh", app::addRender},
+    {"animate", "many pictures of a cage that moves, or a clip of them", app::addAnimate},
     {"export", "the displaced triangles as a mesh", app::addExport},
     {"sample", "the device's own frames at given points of the surface", app::addSample},
     {"check", "certificate: watertight, exact, one-to-one", app::addCheck},

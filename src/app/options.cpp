@@ -77,10 +77,36 @@ void addShading(CLI::App& app, PictureArgs& args) {
     listed(addWord(app, "--show", args.show, "shaded, normal, height, rate, faces or wireframe (shaded)",
                    {"shaded", "normal", "height", "rate", "faces", "wireframe"}),
            "WHAT", group);
+    listed(app.add_option("--layers", args.layers, "into an .exr: depth,normal,face,uv,height,motion or all")
+               ->delimiter(',')
+               ->check(CLI::IsMember({"depth", "normal", "face", "uv", "height", "motion", "all"})),
+           "LAYERS", group);
     CLI::Option* background =
         addNumbers(app, "--background", args.background, "sRGB color of a .png's background (a grey studio)", 3);
     listed(background->check(numberIn(0, 1)), "R,G,B", group);
     app.add_flag("--transparent", args.isTransparent, "no background in a .png")->excludes(background)->group(group);
+}
+
+void addPose(CLI::App& app, PoseArgs& args) {
+    const char* group = "pose";
+    CLI::Option* cache = app.add_option("--cache", args.cache, "point cache: .pc2 .mdd, or cages 'name.{frame:4}.obj'");
+    listed(cache, "FILE", group);
+    CLI::Option* skin =
+        app.add_option("--skin", args.skin, "skin, morph targets and node animation of a .gltf or .glb");
+    listed(skin->excludes(cache), "FILE", group);
+    listed(app.add_option("--clip", args.clip, "the glTF's animation by its name or number (the first)")->needs(skin),
+           "NAME", group);
+    app.add_flag("--bind-nearest", args.bindsNearest, "cage points take the skin of the nearest vertex, however far")
+        ->needs(skin)
+        ->group(group);
+    listed(
+        app.add_option("--deform", args.deform,
+                       "deformers over t in seconds, such as \"twist(axis=y, angle=90*sin(t))\"; see animate --help"),
+        "WORDS", group);
+    listed(addWord(app, "--interpolation", args.interpolation, "between the keys of a cache: linear or step (linear)",
+                   {"linear", "step"}),
+           "HOW", group);
+    listed(app.add_option("--fps", args.fps, "frames a second (24)")->check(numberIn(1e-3, 1e4)), "FPS", group);
 }
 
 } // namespace
@@ -108,8 +134,9 @@ void addProgress(CLI::App& app, ShowProgress& progress) {
 }
 
 void addSurface(CLI::App& app, SurfaceArgs& args) {
-    app.add_option("cage", args.cage, "control cage or mesh (.obj)")->required()->option_text("CAGE");
+    app.add_option("cage", args.cage, "control cage or mesh (.obj .gltf .glb)")->required()->option_text("CAGE");
     addSurfaceOptions(app, args);
+    addPose(app, args.pose);
 }
 
 void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
@@ -133,6 +160,19 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     listed(addWord(app, "--wrap", args.wrap, "outside the map: repeat it, or clamp to its border (repeat)",
                    {"repeat", "clamp"}),
            "WRAP", group);
+}
+
+void addTime(CLI::App& app, PoseArgs& args) {
+    listed(
+        app.add_option("--time", args.time, "seconds: the pose of --cache, --skin or --deform (0)")->check(anyNumber()),
+        "T", "pose");
+}
+
+void addHeightSpace(CLI::App& app, std::string& word) {
+    listed(addWord(app, "--height-space", word,
+                   "heights of a moved cage: absolute, or stretch with the surface (absolute)",
+                   {"absolute", "stretch"}),
+           "SPACE", "height");
 }
 
 void addPath(CLI::App& app, std::string& word, const std::string& defaultWords) {
@@ -199,6 +239,7 @@ void addPicture(CLI::App& app, PictureArgs& args) {
     addTriangles(app, args.triangles);
     addCamera(app, args.camera);
     addShading(app, args);
+    addHeightSpace(app, args.heightSpace);
     addDevice(app, args.device);
 }
 
@@ -249,10 +290,55 @@ void checkValidation(const Device& device) {
     if (count > 0) fail(Failure::internal, "the Vulkan validation layer has {} complaints", count);
 }
 
+std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output) {
+    if (args.isStill()) return nullptr;
+    std::unique_ptr<Animation> animation;
+    if (!args.cache.empty()) {
+        const auto interpolation = args.interpolation == "step" ? Interpolation::step : Interpolation::linear;
+        animation = readPointCache(args.cache, cage, {.fps = args.fps, .interpolation = interpolation}, output.warn());
+    } else if (!args.skin.empty()) {
+        animation = readSkin(args.skin, cage, {.clip = args.clip, .bindsNearest = args.bindsNearest}, output.warn());
+    } else {
+        animation = stillPose(cage);
+    }
+    return args.deform.empty() ? std::move(animation) : deform(std::move(animation), cage, args.deform);
+}
+
+namespace {
+
+/// Moves the cage to the pose of --time.
+void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path) {
+    if (args.time && !loaded.animation)
+        fail(Failure::usage, "{}: --time asks for a pose; say what moves the cage: --cache, --skin or --deform", path);
+    if (!loaded.animation || args.staysAtRest) return;
+    loaded.restPositions = std::move(loaded.cage.positions);
+    loaded.cage.positions = posedPositions(loaded.animation->rig(), loaded.animation->pose(args.time.value_or(0)));
+}
+
+} // namespace
+
+HeightSpace heightSpaceOf(const std::string& word) {
+    return word == "stretch" ? HeightSpace::stretch : HeightSpace::absolute;
+}
+
+std::unique_ptr<Poser> stretchHeights(Device& device, Model& model, const Loaded& loaded,
+                                      const std::string& heightSpace) {
+    if (heightSpaceOf(heightSpace) == HeightSpace::absolute || loaded.restPositions.empty() || !loaded.height)
+        return nullptr;
+    auto poser = std::make_unique<Poser>(device, model,
+                                         PoserDesc{.surface = &loaded.surface,
+                                                   .heightSpace = HeightSpace::stretch,
+                                                   .restPositions = loaded.restPositions});
+    poser->pose({.positions = loaded.cage.positions, .joints = {}, .morphWeights = {}});
+    return poser;
+}
+
 Loaded load(const SurfaceArgs& args, const Output& output) {
     Loaded loaded;
     const double start = secondsNow();
     loaded.cage = readCage(args.cage, output.warn());
+    loaded.animation = animationOf(args.pose, loaded.cage, output);
+    takePose(loaded, args.pose, args.cage);
     const bool isDense = args.scheme == "none" || (args.scheme.empty() && loaded.cage.isAllTriangles());
     if (isDense && !args.height.empty())
         fail(Failure::usage,

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "frame/frame.h"
+#include "pose/pose.h"
 
 namespace relief::app {
 
@@ -16,6 +17,18 @@ struct Output {
     [[nodiscard]] Warn warn() const; ///< silent with -q
 };
 
+/// What moves the cage.
+struct PoseArgs {
+    std::string cache, skin, clip, deform;
+    bool bindsNearest = false;
+    std::string interpolation = "linear";
+    double fps = 24;
+    std::optional<double> time; ///< seconds; default 0
+    bool staysAtRest = false;   ///< the cage is moved later, on the device
+
+    [[nodiscard]] bool isStill() const { return cache.empty() && skin.empty() && deform.empty(); }
+};
+
 struct SurfaceArgs {
     std::string cage;
     std::string scheme; ///< "": catmark, or none for a mesh of triangles
@@ -24,6 +37,7 @@ struct SurfaceArgs {
     std::optional<double> scale, mid;
     int channel = 0;
     std::string wrap = "repeat";
+    PoseArgs pose;
 };
 
 struct TriangleArgs {
@@ -43,9 +57,11 @@ struct CameraArgs {
 
 struct PictureArgs {
     TriangleArgs triangles;
+    std::string heightSpace = "absolute";
     CameraArgs camera;
     std::string show = "shaded";
     std::string albedo, environment;
+    std::vector<std::string> layers;
     std::vector<double> light, color;
     double roughness = 0.4;
     bool hasNoShadows = false;
@@ -58,12 +74,27 @@ void addOutput(CLI::App& app, Output& output);
 void addProgress(CLI::App& app, ShowProgress& progress);
 void addSurface(CLI::App& app, SurfaceArgs& args);
 void addSurfaceOptions(CLI::App& app, SurfaceArgs& args); ///< the same without the cage itself
+void addTime(CLI::App& app, PoseArgs& args);              ///< for verbs that take one pose
+void addHeightSpace(CLI::App& app, std::string& word);
 void addPath(CLI::App& app, std::string& word, const std::string& defaultWords);
 void addTriangles(CLI::App& app, TriangleArgs& args); ///< all but the path, which not every verb can choose
 void addNormal(CLI::App& app, std::string& word);
 void addCamera(CLI::App& app, CameraArgs& args);
 void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
+/// What a picture shows: path, camera and light are the same for all frames.
+RenderOptions renderOptions(const PictureArgs& args, const Device& device, const std::vector<dvec3>& points);
+Finish finishOf(const PictureArgs& args);
+/// Throws Failure::usage unless pictures are .png or .exr, and .exr where layers are asked for.
+void checkPicturePath(const std::string& path, const PictureArgs& args);
+/// Whether motion is asked for: then the pose of the frame before is needed too.
+bool wantsMotion(const PictureArgs& args);
+/// An albedo map and an environment, as they were asked for.
+struct Shading {
+    std::optional<Image> albedo;
+    std::optional<Environment> environment;
+};
+Shading loadShading(const PictureArgs& args);
 
 NormalKind normalKind(const std::string& word);
 /// "": tessellation where the device has it, else grid.
@@ -76,7 +107,9 @@ double secondsNow();
 /// A cage with everything made of it, in memory.
 struct Loaded {
     Cage cage;
-    std::optional<DenseMesh> dense; ///< instead of a surface, where no scheme applies
+    std::unique_ptr<Animation> animation; ///< null for cages that stand still
+    std::vector<vec3> restPositions;      ///< of the cage, where --time has moved it
+    std::optional<DenseMesh> dense;       ///< instead of a surface, where no scheme applies
     Surface surface;
     std::optional<HeightMap> height;
     SurfaceOptions options;
@@ -84,9 +117,17 @@ struct Loaded {
 
     [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
 };
+/// What moves the cage, or null.
+std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output);
+/// The cage is in the pose of PoseArgs::time, unless it stays at rest.
 Loaded load(const SurfaceArgs& args, const Output& output);
 /// Points for framing: a coarse reference is enough.
 std::vector<dvec3> outlineOf(const Loaded& loaded);
+/// Heights that stretch with a posed cage are the device's to make: null where heights are absolute or the cage at
+/// rest.
+std::unique_ptr<Poser> stretchHeights(Device& device, Model& model, const Loaded& loaded,
+                                      const std::string& heightSpace);
+HeightSpace heightSpaceOf(const std::string& word);
 
 /// Throws when the validation layer (RELIEF_VALIDATE=1) complained.
 void checkValidation(const Device& device);

@@ -16,38 +16,6 @@ struct RenderArgs {
     std::string target;
 };
 
-Show showOf(const std::string& word) {
-    static const std::map<std::string, Show> words{{"shaded", Show::shaded}, {"normal", Show::normal},
-                                                   {"height", Show::height}, {"rate", Show::rate},
-                                                   {"faces", Show::faces},   {"wireframe", Show::wireframe}};
-    return words.at(word);
-}
-
-RenderOptions renderOptions(const RenderArgs& args, const Device& device, const std::vector<dvec3>& points) {
-    const PictureArgs& picture = args.picture;
-    RenderOptions options{triangleOptions(picture.triangles, device)};
-    options.show = showOf(picture.show);
-    options.camera = cameraOf(picture.camera, points);
-    for (const dvec3& p : points) options.bounds.add(p);
-    options.lighting.keyAzimuth = picture.light.empty() ? picture.camera.options.azimuth - 55 : picture.light[0];
-    options.lighting.keyElevation = picture.light.empty() ? 50 : picture.light[1];
-    options.lighting.castsShadows = !picture.hasNoShadows;
-    if (!picture.albedo.empty()) options.material.albedo = vec3(1);
-    if (!picture.color.empty()) options.material.albedo = vec3(picture.color[0], picture.color[1], picture.color[2]);
-    options.material.roughness = float(picture.roughness);
-    return options;
-}
-
-Finish finishOf(const PictureArgs& args) {
-    Finish finish;
-    if (args.isTransparent) finish.background = Background::transparent;
-    if (!args.background.empty()) {
-        finish.background = Background::color;
-        finish.color = vec3(args.background[0], args.background[1], args.background[2]);
-    }
-    return finish;
-}
-
 /// A picture and what is told of it, when everything that made it is gone.
 struct Drawn {
     Picture picture;
@@ -101,24 +69,19 @@ void report(const RenderArgs& args, const Drawn& drawn) {
 Drawn draw(const RenderArgs& args, Progress& progress) {
     Loaded loaded = load(args.surface, args.output);
     progress.advance();
-    std::optional<Image> albedo;
-    if (!args.picture.albedo.empty()) albedo = readImage(args.picture.albedo);
-    if (albedo && albedo->channels < 3)
-        fail(Failure::input, "{}: an albedo map has 3 channels, this one has {}", args.picture.albedo,
-             albedo->channels);
-    std::optional<Environment> environment;
-    if (!args.picture.environment.empty()) environment = loadEnvironment(args.picture.environment);
+    Shading shading = loadShading(args.picture);
     const std::vector<dvec3> points = outlineOf(loaded);
     progress.advance();
 
     Device device({.name = args.picture.device});
-    RenderOptions options = renderOptions(args, device, points);
-    if (environment) options.lighting.environment = &*environment;
-    const Model model(device, {.surface = &loaded.surface,
-                               .cagePositions = loaded.cage.positions,
-                               .height = loaded.heightMap(),
-                               .dense = loaded.dense ? &*loaded.dense : nullptr,
-                               .albedo = albedo ? &*albedo : nullptr});
+    RenderOptions options = renderOptions(args.picture, device, points);
+    if (shading.environment) options.lighting.environment = &*shading.environment;
+    Model model(device, {.surface = &loaded.surface,
+                         .cagePositions = loaded.cage.positions,
+                         .height = loaded.heightMap(),
+                         .dense = loaded.dense ? &*loaded.dense : nullptr,
+                         .albedo = shading.albedo ? &*shading.albedo : nullptr});
+    const std::unique_ptr<Poser> poser = stretchHeights(device, model, loaded, args.picture.heightSpace);
     Drawn drawn{.device = device.traits().name,
                 .cageBytes = loaded.cage.byteCount(),
                 .mapBytes = model.heightBytes(),
@@ -127,7 +90,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
                 .surfaceSeconds = loaded.surfaceSeconds,
                 .tableSeconds = loaded.surface.tableSeconds};
     loaded = {};
-    albedo.reset();
+    shading.albedo.reset();
     malloc_trim(0);
     progress.advance();
     Renderer renderer(device, {.width = args.picture.camera.size[0], .height = args.picture.camera.size[1]});
@@ -140,8 +103,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
 }
 
 int render(const RenderArgs& args) {
-    if (!args.target.ends_with(".png") && !args.target.ends_with(".exr"))
-        fail(Failure::usage, "{}: pictures are written as .png or .exr", args.target);
+    checkPicturePath(args.target, args.picture);
     checkWritable(args.target);
     Progress progress("rendering", 5, args.output.progress);
     const Drawn drawn = draw(args, progress);
@@ -158,6 +120,7 @@ Run addRender(CLI::App& app) {
     addSurface(app, args->surface);
     app.add_option("-o,--output", args->target, "picture to write: .png or .exr")->required()->option_text("PICTURE");
     addPicture(app, args->picture);
+    addTime(app, args->surface.pose);
     addOutput(app, args->output);
     app.footer(
         "examples:\n"

@@ -110,6 +110,7 @@ int sample(const SampleArgs& args) {
 Run addSample(CLI::App& app) {
     auto args = std::make_shared<SampleArgs>();
     addSurface(app, args->surface);
+    addTime(app, args->surface.pose);
     app.add_option("--at", args->points, "rows face,u,v: ptex face and its own coordinates")
         ->required()
         ->option_text("POINTS.csv");

@@ -100,6 +100,14 @@ enum class SampleType { uint8, uint16, half, real };
 /// holds integers, EXR half and real, TIFF all; half becomes real there), Failure::file when writing fails.
 void writeImage(const std::string& path, const Image& image, SampleType sample);
 
+/// A channel of a picture with many: its name, which may hold the layer's ("N.X"), and half or real samples.
+struct ImageChannel {
+    std::string name;
+    SampleType sample = SampleType::real;
+};
+/// The same with channels of their own names and samples, one for each of the image's. For .exr only.
+void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels);
+
 // --- files ------------------------------------------------------------------------------------------------------
 
 /// Calls `write` with the name of an empty temporary file beside `path` (same extension), then renames it; on any
@@ -134,11 +142,12 @@ std::string humanBytes(std::uint64_t bytes);
 
 enum class ShowProgress { automatic, always, never };
 
-/// One line on stderr, redrawn in place: `rendering  42 % ████░░░░`. Automatic: silent unless stderr is a terminal and
+/// One line on stderr, redrawn in place: `rendering  42 % ████░░░░`. With a unit, also how fast it goes and how long it
+/// will take: `animating  42 % ████░░░░  3.2 frames/s, 0:41 left`. Automatic: silent unless stderr is a terminal and
 /// the work takes over a second. One thread advances it.
 class Progress {
 public:
-    Progress(std::string title, std::uint64_t total, ShowProgress show);
+    Progress(std::string title, std::uint64_t total, ShowProgress show, std::string unit = "");
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -146,11 +155,12 @@ public:
 
 private:
     void draw();
-    std::string title_;
+    [[nodiscard]] std::string speed() const;
+    std::string title_, unit_;
     std::uint64_t total_, done_ = 0;
     int shownPercent_ = -1;
     bool isShown_;
-    double startSeconds_;
+    double startSeconds_, quietUntil_;
 };
 
 } // namespace relief

@@ -42,12 +42,8 @@ void checkShape(const std::string& path, const Image& image) {
              image.channels, image.texels.size());
 }
 
-} // namespace
-
-void writeImage(const std::string& path, const Image& image, SampleType sample) {
-    const std::string format = chooseFormat(path, sample);
+void encode(const std::string& path, const Image& image, const std::string& format, OIIO::ImageSpec spec) {
     checkShape(path, image);
-    OIIO::ImageSpec spec(image.width, image.height, image.channels, sampleDesc(sample));
     spec.attribute("DateTime", "2000:01:01 00:00:00"); // else the hour of writing: equal pictures must be equal files
     spec.attribute("oiio:UnassociatedAlpha", 1);       // otherwise colours are divided by alpha on the way out
     spec.attribute("tiff:write_exif", 0);              // it would be read back, and memory output cannot be read
@@ -62,6 +58,27 @@ void writeImage(const std::string& path, const Image& image, SampleType sample) 
     if (!output->close() || !isWritten || output->has_error())
         fail(Failure::file, "{}: cannot be written as {}: {}", path, format, output->geterror());
     writeFile(path, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});
+}
+
+} // namespace
+
+void writeImage(const std::string& path, const Image& image, SampleType sample) {
+    encode(path, image, chooseFormat(path, sample),
+           OIIO::ImageSpec(image.width, image.height, image.channels, sampleDesc(sample)));
+}
+
+void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels) {
+    const std::string format = chooseFormat(path, SampleType::real);
+    if (format != "openexr") fail(Failure::usage, "{}: channels of their own names are written as .exr", path);
+    if (channels.size() != std::size_t(image.channels))
+        fail(Failure::internal, "{}: {} names for {} channels", path, channels.size(), image.channels);
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
+    spec.channelnames.clear();
+    for (const ImageChannel& channel : channels) {
+        spec.channelnames.push_back(channel.name);
+        spec.channelformats.push_back(sampleDesc(channel.sample));
+    }
+    encode(path, image, format, spec);
 }
 
 } // namespace relief

@@ -25,11 +25,11 @@ bool isWanted(ShowProgress show) {
 
 void warnOnStderr(const std::string& line) { fmt::print(stderr, "warning: {}\n", line); }
 
-Progress::Progress(std::string title, std::uint64_t total, ShowProgress show)
-    : title_(std::move(title)), total_(std::max<std::uint64_t>(total, 1)), isShown_(isWanted(show)),
-      startSeconds_(secondsNow()) {
+Progress::Progress(std::string title, std::uint64_t total, ShowProgress show, std::string unit)
+    : title_(std::move(title)), unit_(std::move(unit)), total_(std::max<std::uint64_t>(total, 1)),
+      isShown_(isWanted(show)), startSeconds_(secondsNow()), quietUntil_(startSeconds_ + kQuietSeconds) {
     if (show != ShowProgress::always) return;
-    startSeconds_ -= kQuietSeconds;
+    quietUntil_ = startSeconds_;
     draw();
 }
 
@@ -39,18 +39,28 @@ Progress::~Progress() {
 
 void Progress::advance(std::uint64_t steps) {
     done_ = std::min(done_ + steps, total_);
-    if (isShown_ && secondsNow() - startSeconds_ >= kQuietSeconds) draw();
+    if (isShown_ && secondsNow() >= quietUntil_) draw();
+}
+
+/// "  3.2 frames/s, 0:41 left": from what is done so far.
+std::string Progress::speed() const {
+    const double seconds = secondsNow() - startSeconds_;
+    if (unit_.empty() || done_ == 0 || seconds <= 0) return "";
+    const double perSecond = double(done_) / seconds;
+    const auto left = std::uint64_t(double(total_ - done_) / perSecond + 0.5);
+    return fmt::format("  {:.{}f} {}/s, {}:{:02} left ", perSecond, perSecond < 10 ? 1 : 0, unit_, left / 60,
+                       left % 60);
 }
 
 void Progress::draw() {
     const double share = double(done_) / double(total_);
     const int percent = int(100 * share);
-    if (percent == shownPercent_) return;
+    if (percent == shownPercent_ && unit_.empty()) return;
     shownPercent_ = percent;
     const int full = int(kBarCells * share);
     std::string bar;
     for (int cell = 0; cell < kBarCells; ++cell) bar += cell < full ? "█" : "░";
-    fmt::print(stderr, "\r{}  {:3} % {}", title_, percent, bar);
+    fmt::print(stderr, "\r{}  {:3} % {}{}", title_, percent, bar, speed());
     std::fflush(stderr);
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "cage/edges.h"
+#include "cage/gltf.h"
 
 namespace relief {
 
@@ -123,7 +124,9 @@ void validateCage(const Cage& cage, const std::string& name) {
 
 Cage readCage(const std::string& path, const Warn& warn) {
     const std::string extension = lowerExtension(path);
-    if (extension != ".obj") fail(Failure::input, "{}: unknown kind of cage '{}'; use .obj", path, extension);
+    if (extension == ".gltf" || extension == ".glb") return readGltfCage(path, warn);
+    if (extension != ".obj")
+        fail(Failure::input, "{}: unknown kind of cage '{}'; use .obj, .gltf or .glb", path, extension);
     return parseObj(readFile(path), path, warn);
 }
 

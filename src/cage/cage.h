@@ -51,9 +51,14 @@ struct Cage {
     [[nodiscard]] std::uint64_t byteCount() const;
 };
 
-/// Reads a cage by the extension of `path` (today: .obj). Throws Failure::file when it cannot be read and
-/// Failure::input, naming file and line, for anything that is not a valid cage. Oddities that have one sensible
-/// reading (hierarchical edits, unknown tags) go to `warn`.
+/// Reads a cage by the extension of `path`: .obj, or .gltf and .glb. Throws Failure::file when it cannot be read and
+/// Failure::input, naming file and line or element, for anything that is not a valid cage. Oddities that have one
+/// sensible reading (hierarchical edits, unknown tags) go to `warn`.
+///
+/// From glTF 2.0 it takes the triangles of all meshes in the file's scene, where they stand in the world when no
+/// animation moves them. Vertices of one node with the same bits of position become one, so that seams and hard edges
+/// are no boundaries; a vertex's texture coordinates and normals stay its own. A part is a primitive, named after its
+/// node (or its mesh) and its material.
 Cage readCage(const std::string& path, const Warn& warn = warnOnStderr);
 
 /// The same from text in memory; `name` stands for the file in messages.

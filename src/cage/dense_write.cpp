@@ -39,7 +39,7 @@ const Format& formatOf(const std::string& path) {
 }
 
 template <typename Vector>
-void checkFinite(const std::vector<Vector>& values, const char* what, const std::string& path) {
+void checkNumbers(const std::vector<Vector>& values, const char* what, const std::string& path) {
     for (std::size_t i = 0; i < values.size(); ++i)
         for (int k = 0; k < Vector::length(); ++k)
             if (!std::isfinite(values[i][k]))
@@ -60,9 +60,9 @@ void checkMesh(const DenseMesh& mesh, const std::string& path) {
         if (mesh.indices[i] >= count)
             fail(Failure::input, "{}: not written: triangle {} of the mesh names vertex {}; there are {} (from 0)",
                  path, i / 3, mesh.indices[i], count);
-    checkFinite(mesh.positions, "position", path);
-    checkFinite(mesh.normals, "normal", path);
-    checkFinite(mesh.texCoords, "texture coordinate", path);
+    checkNumbers(mesh.positions, "position", path);
+    checkNumbers(mesh.normals, "normal", path);
+    checkNumbers(mesh.texCoords, "texture coordinate", path);
 }
 
 } // namespace

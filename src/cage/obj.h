@@ -34,7 +34,7 @@ ObjScan scanObj(std::string_view text, const std::string& name, const Warn& warn
 void applyObjTags(const std::vector<ObjTag>& tags, Cage& cage, const std::string& name, const Warn& warn);
 
 /// A word of the file as it may stand in a message: short and printable.
-std::string quoted(std::string_view word);
+std::string inQuotes(std::string_view word);
 
 /// Throws Failure::input as "NAME:LINE: ...".
 template <typename... Args>

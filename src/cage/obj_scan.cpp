@@ -188,14 +188,14 @@ void ObjScanner::scanCorner(std::string_view corner, std::array<bool, kindCount>
         if (field.size() == rest.size()) return;
         rest.remove_prefix(field.size() + 1);
     }
-    failHere("{} has more than three indices; a corner is vertex/texture/normal", quoted(corner));
+    failHere("{} has more than three indices; a corner is vertex/texture/normal", inQuotes(corner));
 }
 
 /// The index from 0. Negative ones count back from the latest value; positive ones may name values still to come.
 std::size_t ObjScanner::resolveIndex(Kind kind, std::string_view word) {
     Values& values = values_[kind];
     const std::optional<int> index = parseNumber<int>(word);
-    if (!index) failHere("{} is not a {} index; write a whole number", quoted(word), kKindNames[kind]);
+    if (!index) failHere("{} is not a {} index; write a whole number", inQuotes(word), kKindNames[kind]);
     if (*index == 0) failHere("{} index 0 does not exist; a face's indices count from 1", kKindNames[kind]);
     if (*index < 0) {
         const std::size_t back = std::size_t(-std::int64_t(*index));
@@ -240,12 +240,12 @@ void ObjScanner::scanTag() {
     const std::size_t expected = counts[0] + counts[1] + counts[2];
     const std::span<const std::string_view> values = std::span(words_).subspan(2);
     if (values.size() != expected)
-        failHere("tag {} announces {} values, {} follow", quoted(words_[0]), expected, values.size());
+        failHere("tag {} announces {} values, {} follow", inQuotes(words_[0]), expected, values.size());
 
     ObjTag tag{.line = line_, .name = std::string(words_[0]), .ints = {}, .floats = {}, .strings = {}};
     for (const std::string_view word : values.first(counts[0])) {
         const std::optional<int> value = parseNumber<int>(word);
-        if (!value) failHere("{} is not a whole number", quoted(word));
+        if (!value) failHere("{} is not a whole number", inQuotes(word));
         tag.ints.push_back(*value);
     }
     for (const std::string_view word : values.subspan(counts[0], counts[1])) tag.floats.push_back(scanFloat(word));
@@ -261,7 +261,7 @@ std::array<std::size_t, 3> ObjScanner::scanTagSizes(std::string_view sizes) cons
         const std::optional<std::uint32_t> count = parseNumber<std::uint32_t>(field);
         const bool isLast = field.size() == rest.size();
         if (!count || isLast != (type == 2))
-            failHere("{} are not the sizes of a tag; write ints/floats/strings, such as 2/1/0", quoted(sizes));
+            failHere("{} are not the sizes of a tag; write ints/floats/strings, such as 2/1/0", inQuotes(sizes));
         counts[type] = *count;
         rest.remove_prefix(isLast ? field.size() : field.size() + 1);
     }
@@ -272,7 +272,7 @@ std::array<std::size_t, 3> ObjScanner::scanTagSizes(std::string_view sizes) cons
 float ObjScanner::scanFloat(std::string_view word) const {
     const std::optional<double> value = parseNumber<double>(word);
     if (!value || !std::isfinite(float(*value)))
-        failHere("{} is not a finite number; write digits with a decimal point", quoted(word));
+        failHere("{} is not a finite number; write digits with a decimal point", inQuotes(word));
     return float(*value);
 }
 
@@ -292,7 +292,7 @@ void ObjScanner::keepWords(std::string_view keyword) {
 
 void ObjScanner::warnOnce(std::string_view keyword) {
     if (warnedOf_.emplace(keyword).second)
-        warn_(fmt::format("{}:{}: lines {} are not read", name_, line_, quoted(keyword)));
+        warn_(fmt::format("{}:{}: lines {} are not read", name_, line_, inQuotes(keyword)));
 }
 
 void ObjScanner::finish() {
@@ -315,7 +315,7 @@ void ObjScanner::finish() {
 
 } // namespace
 
-std::string quoted(std::string_view word) {
+std::string inQuotes(std::string_view word) {
     constexpr std::size_t kLongest = 40;
     std::string text = "'" + std::string(word.substr(0, kLongest)) + (word.size() > kLongest ? "...'" : "'");
     for (char& letter : text)

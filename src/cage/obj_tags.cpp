@@ -117,7 +117,7 @@ void TagReader::readCreaseMethod(const ObjTag& tag) {
     checkSizes(tag, tag.ints.empty() && tag.floats.empty() && tag.strings.size() == 1, "0/0/1");
     const std::string& method = tag.strings[0];
     if (method != "normal" && method != "chaikin")
-        failAtLine(name_, tag.line, "crease method {} does not exist; use normal or chaikin", quoted(method));
+        failAtLine(name_, tag.line, "crease method {} does not exist; use normal or chaikin", inQuotes(method));
     setRule(tag, cage_.creaseMethod, method == "chaikin" ? CreaseMethod::chaikin : CreaseMethod::uniform);
 }
 
@@ -125,7 +125,7 @@ void TagReader::warnUnknown(const ObjTag& tag) {
     if (!warnedOf_.insert(tag.name).second) return;
     const bool isEdit = tag.name.ends_with("edit");
     warn_(fmt::format("{}:{}: {} {} ignored", name_, tag.line, isEdit ? "hierarchical edit" : "unknown tag",
-                      quoted(tag.name)));
+                      inQuotes(tag.name)));
 }
 
 void TagReader::checkSizes(const ObjTag& tag, bool isRight, const char* sizes) const {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "check/point_tree.h"
+#include "base/point_tree.h"
 
 namespace relief {
 namespace {

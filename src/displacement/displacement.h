@@ -58,7 +58,9 @@ struct DisplacedFrame {
     dvec3 full{0};       ///< unit full normal (Lee, Moreton, Hoppe 2000)
 };
 
-/// Evaluates the displaced surface at (face,u,v); without a map the height is zero.
-DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv);
+/// Evaluates the displaced surface at (face,u,v); without a map the height is zero. With `rest`, the same surface in
+/// another pose, heights grow with the square root of the area gained since then (shared/displacement.h).
+DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv,
+                              const ReferenceSurface* rest = nullptr);
 
 } // namespace relief

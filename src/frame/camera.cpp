@@ -67,10 +67,14 @@ Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, 
     camera.target = target;
     camera.eye = target + back * distance;
     camera.fieldOfView = options.fieldOfView;
-    const double toCenter = glm::length(camera.eye - bounds.center());
+    fitDepth(camera, bounds);
+    return camera;
+}
+
+void fitDepth(Camera& camera, const Bounds& bounds) {
+    const double size = std::max(bounds.diagonal(), 1e-6), toCenter = glm::length(camera.eye - bounds.center());
     camera.nearDistance = std::max(toCenter - 1.25 * size, 1e-3 * size); // room for boxes around it
     camera.farDistance = toCenter + size;
-    return camera;
 }
 
 mat4 perspectiveMatrix(const Camera& camera, double aspect) {

@@ -30,6 +30,9 @@ std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map
 /// A camera that holds all `points` with a small margin.
 Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, double aspect);
 
+/// Near and far planes for an object in a box: the camera's own are for the points that it was framed by.
+void fitDepth(Camera& camera, const Bounds& bounds);
+
 /// What rates are measured from, for a picture of that many rows.
 View viewOf(const Camera& camera, int height);
 
@@ -62,6 +65,16 @@ struct Material {
 
 // --- pictures -----------------------------------------------------------------------------------------------------
 
+/// What a pixel sees at its centre besides light.
+enum class Layer {
+    depth,  ///< distance along the view, cage units
+    normal, ///< of the displaced surface, unit, turned to the eye
+    face,   ///< of the cage; -1 where nothing is seen
+    uv,     ///< texture coordinates
+    height, ///< cage units
+    motion, ///< pixels since the frame before, x right and y down
+};
+
 enum class Show { shaded, normal, height, rate, faces, wireframe };
 
 struct RenderOptions : TriangleOptions {
@@ -70,6 +83,8 @@ struct RenderOptions : TriangleOptions {
     Lighting lighting;
     Material material;
     Bounds bounds; ///< of the object: what the shadow map covers
+    std::vector<Layer> layers;
+    std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
     bool countsPipeline = false;
 };
 
@@ -89,6 +104,8 @@ struct Picture {
     int width = 0, height = 0;
     std::vector<std::uint16_t> halves; ///< RGBA as IEEE half floats, from the top row
     bool isDisplayReferred = false;
+    std::vector<Layer> layers;      ///< that were asked for
+    std::vector<float> layerValues; ///< kLayerChannels a pixel (shared/scene.h), from the top row; empty without layers
     FrameStats stats;
 
     [[nodiscard]] Image image() const; ///< the same as floats, 4 channels
@@ -125,7 +142,11 @@ struct Finish {
     vec3 color{1}; ///< sRGB 0..1
 };
 
-/// Writes .png (tone-mapped, sRGB, 8 bit) or .exr (linear half with alpha, no background), whole or not at all.
+/// What a .png shows: tone-mapped, sRGB 0..1, 3 channels, or 4 where the background is transparent.
+Image displayed(const Picture& picture, const Finish& finish = {});
+
+/// Writes .png (tone-mapped, sRGB, 8 bit) or .exr (linear half with alpha, no background), whole or not at all. Layers
+/// become channels of the .exr: Z, N.X N.Y N.Z, face.ID, uv.U uv.V, height.H, motion.X motion.Y, all of them floats.
 void writePicture(const std::string& path, const Picture& picture, const Finish& finish = {});
 
 } // namespace relief

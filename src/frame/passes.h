@@ -27,4 +27,14 @@ struct Targets {
 
 Targets makeTargets(Device& device, const RendererDesc& desc);
 
+constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+/// The images that layers are made from, one sample a pixel; made when layers are first asked for.
+struct LayerTargets {
+    Texture normals, places, depths; ///< what layers.frag writes
+    Buffer values;                   ///< kLayerChannels floats a pixel, mapped
+};
+
+LayerTargets makeLayerTargets(Device& device, const RendererDesc& desc);
+
 } // namespace relief

@@ -26,6 +26,58 @@ vec3 studioBackground(double x, double y, double aspect) {
     return vec3(glm::mix(dvec3(0.80, 0.815, 0.83) * fade, dvec3(0.93, 0.935, 0.94), 0.85 * glow));
 }
 
+} // namespace
+
+Image Picture::image() const {
+    Image image{width, height, 4, std::vector<float>(halves.size())};
+    std::transform(halves.begin(), halves.end(), image.texels.begin(), glm::unpackHalf1x16);
+    return image;
+}
+
+namespace {
+
+/// Channels of a layer, as they are called in a file and where they lie in Picture::layerValues.
+struct LayerChannels {
+    std::vector<const char*> names;
+    std::uint32_t first;
+};
+
+LayerChannels channelsOf(Layer layer) {
+    switch (layer) {
+    case Layer::depth: return {{"Z"}, kLayerDepth};
+    case Layer::normal: return {{"N.X", "N.Y", "N.Z"}, kLayerNormal};
+    case Layer::face: return {{"face.ID"}, kLayerFace};
+    case Layer::uv: return {{"uv.U", "uv.V"}, kLayerTexCoords};
+    case Layer::height: return {{"height.H"}, kLayerHeight};
+    case Layer::motion: return {{"motion.X", "motion.Y"}, kLayerMotion};
+    }
+    fail(Failure::internal, "layer {} does not exist", int(layer));
+}
+
+void writeLayers(const std::string& path, const Picture& picture) {
+    const Image light = picture.image();
+    std::vector<ImageChannel> channels;
+    for (const char* name : {"R", "G", "B", "A"}) channels.push_back({name, SampleType::half});
+    std::vector<std::uint32_t> sources; ///< of each channel of the layers
+    for (const Layer layer : picture.layers) {
+        const LayerChannels own = channelsOf(layer);
+        for (std::uint32_t i = 0; i < own.names.size(); ++i) {
+            channels.push_back({own.names[i], SampleType::real});
+            sources.push_back(own.first + i);
+        }
+    }
+    Image all{picture.width, picture.height, int(channels.size()), {}};
+    all.texels.reserve(light.texels.size() / 4 * channels.size());
+    for (std::size_t pixel = 0; pixel < light.texels.size() / 4; ++pixel) {
+        all.texels.insert(all.texels.end(), &light.texels[4 * pixel], &light.texels[4 * pixel] + 4);
+        for (const std::uint32_t source : sources)
+            all.texels.push_back(picture.layerValues[kLayerChannels * pixel + source]);
+    }
+    writeImage(path, all, channels);
+}
+
+} // namespace
+
 Image displayed(const Picture& picture, const Finish& finish) {
     const Image from = picture.image();
     const bool isOpaque = finish.background != Background::transparent;
@@ -59,16 +111,10 @@ Image displayed(const Picture& picture, const Finish& finish) {
     return to;
 }
 
-} // namespace
-
-Image Picture::image() const {
-    Image image{width, height, 4, std::vector<float>(halves.size())};
-    std::transform(halves.begin(), halves.end(), image.texels.begin(), glm::unpackHalf1x16);
-    return image;
-}
-
 void writePicture(const std::string& path, const Picture& picture, const Finish& finish) {
-    if (path.ends_with(".exr"))
+    if (path.ends_with(".exr") && !picture.layers.empty())
+        writeLayers(path, picture);
+    else if (path.ends_with(".exr"))
         writeImage(path, picture.image(), SampleType::half);
     else if (path.ends_with(".png"))
         writeImage(path, displayed(picture, finish), SampleType::uint8);

@@ -19,22 +19,6 @@ std::uint32_t showConstant(Show show) {
     return kConstants[int(show)];
 }
 
-VkRenderingAttachmentInfo attachment(const Texture& target) {
-    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = target.view.get();
-    info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    return info; // cleared to zero: nothing, farthest depth
-}
-
-void setViewport(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) {
-    const VkViewport viewport{0, 0, float(width), float(height), 0, 1};
-    const VkRect2D scissor{{0, 0}, {width, height}};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
-}
-
 } // namespace
 
 Renderer::Renderer(Device& device, const RendererDesc& desc) {
@@ -49,7 +33,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) cons
     ShaderConstants c{.hasTexCoords = frame.model.hasTexCoords(),
                       .hasHeight = frame.model.hasHeight(),
                       .normal = frame.options.normal,
-                      .hasMips = frame.rates.hasMips()};
+                      .hasMips = frame.rates.hasMips(),
+                      .stretches = frame.model.stretches()};
     // Where positions are all that counts no normal is cheaper than the limit normal.
     if (pass == Pass::shadow || pass == Pass::cracks) c.normal = NormalKind::limit;
     if (pass == Pass::cracks) c.show = kShowCracks;
@@ -59,6 +44,11 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) cons
         c.wantsTexCoords = c.hasAlbedoMap;
     }
     if (pass == Pass::lines) c.show = kShowLines;
+    if (pass == Pass::layers || pass == Pass::layerValues) {
+        c.show = kShowLayers;
+        c.wantsTexCoords = pass == Pass::layers;
+        c.hasMotion = pass == Pass::layerValues && frame.model.hasMotion();
+    }
     if (pass == Pass::light) return {.show = showConstant(frame.options.show)};
     return c;
 }
@@ -75,7 +65,7 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, Pass pass) cons
                   {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaderCode("patch.tesc", isTriangles)},
                   {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaderCode("patch.tese", isTriangles)}};
     }
-    const char* fragment = pass == Pass::cracks ? "crack.frag" : "surface.frag";
+    const char* fragment = pass == Pass::cracks ? "crack.frag" : pass == Pass::layers ? "layers.frag" : "surface.frag";
     if (pass != Pass::shadow) stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, shaderCode(fragment)});
     return stages;
 }
@@ -88,8 +78,10 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
 
-    if (pass == Pass::light) {
-        const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, shaderCode("light.comp")};
+    if (pass == Pass::light || pass == Pass::layerValues) {
+        const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, pass == Pass::light
+                                                           ? shaderCode("light.comp")
+                                                           : shaderCode("layers.comp", frame.model.isTriangles())};
         return pipelines[key] = makeCompute(
                    device, {.name = "light", .stage = stage, .constants = constants, .layout = passLayout()});
     }
@@ -109,6 +101,10 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
         graphics.addsUp = true;
         graphics.colorFormats = {kCrackFormat};
         graphics.depthFormat = VK_FORMAT_UNDEFINED;
+        graphics.samples = VK_SAMPLE_COUNT_1_BIT;
+    }
+    if (pass == Pass::layers) {
+        graphics.colorFormats = {kLayerFormat, kLayerFormat};
         graphics.samples = VK_SAMPLE_COUNT_1_BIT;
     }
     if (pass == Pass::lines) {
@@ -148,6 +144,8 @@ void Renderer::Parts::describeView(Frame& frame) {
     Scene& s = frame.scene;
     frame.model.describe(s, frame.bindings);
     s.worldToClip = perspectiveMatrix(o.camera, double(desc.width) / desc.height);
+    s.worldToClipBefore =
+        o.cameraBefore ? perspectiveMatrix(*o.cameraBefore, double(desc.width) / desc.height) : s.worldToClip;
     s.clipToWorld = mat4(glm::inverse(glm::dmat4(s.worldToClip)));
     s.pictureTarget = targets.picture.address;
     s.pictureSize = {desc.width, desc.height};
@@ -266,6 +264,7 @@ Picture Renderer::render(const Model& model, const RenderOptions& options) {
     picture.width = parts.desc.width;
     picture.height = parts.desc.height;
     picture.halves.assign(halves, halves + std::size_t(picture.width) * std::size_t(picture.height) * 4);
+    if (!options.layers.empty()) parts.renderLayers(model, options, picture);
     stats.wallMs = 1e3 * (secondsNow() - start);
     return picture;
 }

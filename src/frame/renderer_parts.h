@@ -5,6 +5,22 @@
 
 namespace relief {
 
+inline VkRenderingAttachmentInfo attachment(const Texture& target) {
+    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+    info.imageView = target.view.get();
+    info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
+    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    return info; // cleared to zero: nothing, farthest depth
+}
+
+inline void setViewport(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) {
+    const VkViewport viewport{0, 0, float(width), float(height), 0, 1};
+    const VkRect2D scissor{{0, 0}, {width, height}};
+    vkCmdSetViewport(commands, 0, 1, &viewport);
+    vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
 struct Renderer::Parts {
     Parts(Device& device, const RendererDesc& desc)
         : device(device), desc(desc), targets(makeTargets(device, desc)), scene(makeSceneBuffer(device)),
@@ -34,6 +50,7 @@ struct Renderer::Parts {
     Environment studio;                                       ///< made when first needed
     const Environment* uploadedEnvironment = nullptr;
     Texture environment;
+    std::optional<LayerTargets> layerTargets;
 
     /// Everything that one call of render() needs.
     struct Frame {
@@ -50,7 +67,7 @@ struct Renderer::Parts {
         BindingSet set;
     };
 
-    enum class Pass { shadow, color, lines, light, cracks };
+    enum class Pass { shadow, color, lines, light, cracks, layers, layerValues };
 
     ShaderConstants constantsOf(const Frame& frame, Pass pass) const;
     const Pipeline& pipelineOf(const Frame& frame, Pass pass);
@@ -70,6 +87,9 @@ struct Renderer::Parts {
     void shadowPass(VkCommandBuffer commands, const Frame& frame);
     void colorPass(VkCommandBuffer commands, const Frame& frame);
     void lightPass(VkCommandBuffer commands, const Frame& frame);
+    void renderLayers(const Model& model, const RenderOptions& options, Picture& picture);
+    void layerPass(VkCommandBuffer commands, const Frame& frame);
+    void layerValuesPass(VkCommandBuffer commands, const Frame& frame);
     [[nodiscard]] bool castsShadows(const Frame& frame) const {
         return frame.options.lighting.castsShadows && frame.options.show == Show::shaded;
     }

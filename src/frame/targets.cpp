@@ -27,4 +27,23 @@ Targets makeTargets(Device& device, const RendererDesc& desc) {
     return t;
 }
 
+LayerTargets makeLayerTargets(Device& device, const RendererDesc& desc) {
+    const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
+    const auto target = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
+        return makeTexture(device, {.name = name,
+                                    .width = width,
+                                    .height = height,
+                                    .format = format,
+                                    .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT});
+    };
+    LayerTargets t;
+    t.normals = target("layer normals", kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    t.places = target("layer places", kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    t.depths = target("layer depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    t.values = makeBuffer(device, {.name = "layers",
+                                   .bytes = std::uint64_t(width) * height * kLayerChannels * sizeof(float),
+                                   .memory = MemoryUse::readback});
+    return t;
+}
+
 } // namespace relief

@@ -80,7 +80,7 @@ Traffic surfaceTraffic(const SurfaceTrafficDesc& desc) {
             .cacheless = desc.calls * evaluationBytes(desc.heightBytes, desc.hasTexCoords) + 2 * written};
 }
 
-std::uint64_t posedCageBytes(std::uint64_t cagePoints) { return 16 * cagePoints; }
+std::uint64_t posedCageBytes(std::uint64_t cagePoints) { return 12 * cagePoints; }
 
 std::uint64_t posedDenseBytes(const DenseLayout& layout, std::uint64_t vertices) {
     return std::uint64_t(layout.positionBytes + layout.normalBytes) * vertices;

@@ -57,6 +57,14 @@ RenderOptions OnDevice::renderOptions(int rate) const {
 
 EdgeRates exactRates(const Model& model, int rate) { return {.rates = model.uniformRates(float(rate))}; }
 
+DenseMesh denseMeshOf(Device& device, const Model& model, int rate) {
+    return Dicer(device).diceToHost(model, exactRates(model, rate), {.wantsTexCoords = model.hasTexCoords()});
+}
+
+std::unique_ptr<Model> denseModel(Device& device, const DenseMesh& mesh) {
+    return std::make_unique<Model>(device, ModelDesc{.dense = &mesh});
+}
+
 void Drawn::tell(Row& row) const {
     row.add("frame", "ms", wall);
     row.add("triangle passes", "ms", [&] {
@@ -103,10 +111,12 @@ void drawRounds(Renderer& renderer, std::span<const Camera> views, int roundCoun
             RenderOptions options = drawn.options;
             options.camera = views[std::size_t(std::max(round, 0)) % views.size()];
             options.countsPipeline = round < 0; // the round that compiles shaders, not measured
+            const double poseMs = millisecondsOf([&] { drawn.pose(round); });
             const FrameStats stats = renderer.render(*drawn.model, options).stats;
             if (round < 0) drawn.last = stats;
             if (round < 0 && roundCount > 0) continue;
-            drawn.wall.push_back(stats.wallMs);
+            drawn.wall.push_back(poseMs + stats.wallMs);
+            drawn.poses.push_back(poseMs);
             drawn.rates.push_back(stats.rateMs);
             drawn.dice.push_back(stats.diceMs);
             drawn.color.push_back(stats.colorMs);

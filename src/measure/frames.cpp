@@ -1,4 +1,4 @@
-// The suites `frame`, `scaling` and `animate`: what frames of so many triangles cost, and getting ready for them.
+// The suites `frame` and `scaling`: what frames of so many triangles cost, and getting ready for them.
 #include <algorithm>
 #include <cmath>
 
@@ -6,15 +6,6 @@
 
 namespace relief {
 namespace {
-
-constexpr const char* kDense = "dense mesh, raw";
-
-/// The triangles of a surface as a dense mesh on the device.
-std::unique_ptr<Model> denseModel(Device& device, const Model& model, int rate) {
-    const DenseMesh mesh =
-        Dicer(device).diceToHost(model, exactRates(model, rate), {.wantsTexCoords = model.hasTexCoords()});
-    return std::make_unique<Model>(device, ModelDesc{.dense = &mesh});
-}
 
 std::vector<Drawn> pathsOf(const OnDevice& on, const DeviceTraits& traits, int rate) {
     std::vector<Drawn> all;
@@ -92,7 +83,7 @@ void measureFrame(Bench& bench, const Subject& subject) {
     const OnDevice on(bench.device, subject);
     const int rate = on.rateFor(bench.options.isQuick ? 6e4 : 1e6);
     std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
-    const std::unique_ptr<Model> dense = denseModel(bench.device, on.model, rate);
+    const std::unique_ptr<Model> dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
     all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
     Renderer renderer(bench.device, {.width = bench.pictureSide(), .height = bench.pictureSide(), .shadowSide = 1});
     drawRounds(renderer, on.views, bench.roundCount(), all);
@@ -113,7 +104,7 @@ void measureScaling(Bench& bench, const Subject& subject) {
         std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
         std::unique_ptr<Model> dense;
         if (triangles <= 3e6) {
-            dense = denseModel(bench.device, on.model, rate);
+            dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
             all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
         }
         if (triangles > 5e6)
@@ -131,26 +122,6 @@ void measureScaling(Bench& bench, const Subject& subject) {
         }
     }
     measurePreparation(bench, subject);
-}
-
-/// What a pose sends to the device. Times of posed frames go into the same rows.
-void measureAnimate(Bench& bench, const Subject& subject) {
-    const OnDevice on(bench.device, subject);
-    int previous = 0;
-    for (const double triangles : {3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7}) {
-        const int rate = on.rateFor(triangles);
-        if (rate == std::exchange(previous, rate)) continue;
-        const DrawPlan plan = planGrids(on.model, exactRates(on.model, rate));
-        const auto add = [&](const char* name, std::uint64_t bytes) {
-            Row row{"animate", subject.name, name, "triangles", double(plan.triangleCount), {}};
-            row.add("uploaded a frame", "bytes", Origin::computed, double(bytes));
-            bench.results.rows.push_back(row);
-        };
-        add("posed cage", posedCageBytes(subject.cage.positions.size()));
-        add(kDense, posedDenseBytes(kRawLayout, plan.vertexCount));
-        add("dense mesh, quantised", posedDenseBytes(kQuantisedLayout, plan.vertexCount));
-    }
-    bench.progress.advance();
 }
 
 } // namespace relief

@@ -139,7 +139,7 @@ int fetchedTexelBytes(MapFormat format);
 /// Bytes that one evaluation of a bicubic patch fetches: records, tree, 16 points with their indices, 20 texels.
 std::uint64_t evaluationBytes(int heightBytes, bool hasTexCoords);
 
-/// Sent to the device for one pose: the cage's points as the device holds them, or what moves of a dense mesh.
+/// Sent to the device for one pose: the cage's points, three floats each, or what moves of a dense mesh.
 std::uint64_t posedCageBytes(std::uint64_t cagePoints);
 std::uint64_t posedDenseBytes(const DenseLayout& layout, std::uint64_t vertices);
 

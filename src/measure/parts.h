@@ -58,6 +58,11 @@ struct OnDevice {
 /// Rates with heights from the map itself, without mips: geometry is compared as it is.
 EdgeRates exactRates(const Model& model, int rate);
 
+inline constexpr const char* kDense = "dense mesh, raw";
+/// The triangles of a surface at a rate, and the same on the device.
+DenseMesh denseMeshOf(Device& device, const Model& model, int rate);
+std::unique_ptr<Model> denseModel(Device& device, const DenseMesh& mesh);
+
 /// The views from which everything is drawn: a turn around the object in four steps.
 std::vector<Camera> cameraPath(std::span<const dvec3> points);
 
@@ -66,7 +71,8 @@ struct Drawn {
     std::string name;
     const Model* model = nullptr;
     RenderOptions options;
-    std::vector<double> wall, rates, dice, color, light;
+    std::function<void(int round)> pose = [](int) {}; ///< what moves it; a part of its frame
+    std::vector<double> wall, poses, rates, dice, color, light;
     FrameStats last; ///< with pipeline counts
 
     /// Adds times and counts, and what the model of bytes says of a dense mesh or a surface.

@@ -64,7 +64,7 @@ meshoptimizer in steps of a square root of two. Draco at its encoder's own speed
 (three a triangle where nothing was counted), and its indices. A surface: for every evaluation the records of face and patch
 (64 bytes), two words of the tree, sixteen points with their indices (320), as many texture points (192), and five bilinear
 lookups of the map, four texels each; of BC4 a block of 8 bytes a lookup.</li>
-<li><b>Uploaded for a pose.</b> The cage's points, 16 bytes each, against positions and normals of the dense mesh.</li>
+<li><b>Uploaded for a pose.</b> The cage's points, 12 bytes each, against positions and normals of the dense mesh.</li>
 <li><b>Times.</b> Rounds draw every contestant once, so that a slow spell of the machine hits all alike; the first round is
 not counted. Median, and the 5th to 95th percentile. No shadows; four samples a pixel; the camera turns around the object.</li>
 </ul>

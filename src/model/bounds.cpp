@@ -105,30 +105,38 @@ Range HeightPyramid::range(const vec2& lower, const vec2& upper) const {
     return heights(blocksIn(level, first, last));
 }
 
-std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points, const HeightMap* map,
-                               const HeightPyramid& pyramid) {
-    std::vector<Bounds> bounds(surface.faces.size());
-    for (std::size_t f = 0; f < bounds.size(); ++f) {
-        Box<vec3> box;
+std::vector<float> faceReaches(const Surface& surface, const HeightMap* map, const HeightPyramid& pyramid) {
+    std::vector<float> reaches(surface.faces.size(), 0);
+    if (map == nullptr) return reaches;
+    for (std::size_t f = 0; f < reaches.size(); ++f) {
         Box<vec2> texture;
+        if (!surface.hasTexCoords()) texture = {vec2(0), vec2(1)}; // every face takes the whole map
         for (const TreeLeaf& leaf : leavesOf(surface.tree, surface.faces[f].root)) {
-            const Patch& patch = surface.patches[leaf.patchIndex];
-            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patchSize(patch.type)),
-                                   points, patch.param1));
             if (!surface.hasTexCoords()) continue;
+            const Patch& patch = surface.patches[leaf.patchIndex];
             const auto indices =
                 std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patchSize(patch.texType));
             texture.add(patchBox<vec2>(indices, surface.texPoints, patch.texParam1));
         }
-        if (box.isEmpty()) continue;
-        float reach = 0;
-        if (map != nullptr) {
-            if (!surface.hasTexCoords()) texture = {vec2(0), vec2(1)}; // every face takes the whole map
-            const Range range = pyramid.range(texture.lower, texture.upper);
-            reach = std::max(std::abs(range.lowest), std::abs(range.highest));
+        if (texture.isEmpty()) continue;
+        const Range range = pyramid.range(texture.lower, texture.upper);
+        reaches[f] = std::max(std::abs(range.lowest), std::abs(range.highest));
+    }
+    return reaches;
+}
+
+std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points, std::span<const float> reaches) {
+    std::vector<Bounds> bounds(surface.faces.size());
+    for (std::size_t f = 0; f < bounds.size(); ++f) {
+        Box<vec3> box;
+        for (const TreeLeaf& leaf : leavesOf(surface.tree, surface.faces[f].root)) {
+            const Patch& patch = surface.patches[leaf.patchIndex];
+            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patchSize(patch.type)),
+                                   points, patch.param1));
         }
-        bounds[f].add(dvec3(box.lower) - double(reach));
-        bounds[f].add(dvec3(box.upper) + double(reach));
+        if (box.isEmpty()) continue;
+        bounds[f].add(dvec3(box.lower) - double(reaches[f]));
+        bounds[f].add(dvec3(box.upper) + double(reaches[f]));
     }
     return bounds;
 }

@@ -8,12 +8,24 @@ namespace {
 
 constexpr std::uint32_t kCapturedBytes = 16; ///< position, 1 on a boundary
 
-struct Capture {
+} // namespace
+
+struct Capturer::Parts {
+    explicit Parts(Device& device) : device(device), inputs(device), dicer(device) {}
     Device& device;
+    GeometryInputs inputs;
+    Dicer dicer;
+    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
+};
+
+namespace {
+
+struct Capture {
+    Capturer::Parts& parts;
     const Model& model;
     const TriangleOptions& options;
     const EdgeRates& rates;
-    GeometryInputs inputs{device};
+    Device& device = parts.device;
 
     Buffer makeTarget(std::uint64_t vertexCount, VkBufferUsageFlags usage) {
         const std::uint64_t bytes = vertexCount * kCapturedBytes;
@@ -27,17 +39,21 @@ struct Capture {
     }
 
     /// A pipeline without pictures: vertices are captured, triangles are not drawn.
-    Pipeline makePipeline(const std::vector<Stage>& stages, VkPrimitiveTopology topology) {
+    const Pipeline& pipelineOf(const std::vector<Stage>& stages, VkPrimitiveTopology topology) {
         ShaderConstants constants = constantsOf(model, NormalKind::limit);
         constants.hasMips = rates.hasMips();
-        return makeGraphics(device, {.name = "capture",
-                                     .stages = stages,
-                                     .constants = constants.values(),
-                                     .layout = GeometryInputs::layout(),
-                                     .topology = topology,
-                                     .drawsNothing = true,
-                                     .colorFormats = {},
-                                     .depthFormat = VK_FORMAT_UNDEFINED});
+        std::vector<std::uint32_t> key = constants.values();
+        key.insert(key.end(), {std::uint32_t(topology), model.isTriangles()});
+        const auto found = parts.pipelines.find(key);
+        if (found != parts.pipelines.end()) return found->second;
+        return parts.pipelines[key] = makeGraphics(device, {.name = "capture",
+                                                            .stages = stages,
+                                                            .constants = constants.values(),
+                                                            .layout = GeometryInputs::layout(),
+                                                            .topology = topology,
+                                                            .drawsNothing = true,
+                                                            .colorFormats = {},
+                                                            .depthFormat = VK_FORMAT_UNDEFINED});
     }
 
     /// Runs `draw` with everything bound.
@@ -47,7 +63,7 @@ struct Capture {
         const TexelBuffer drawFaces = uploadWords(device, "faces to draw", plan.faces);
         Scene scene{};
         Binding bindings[kBindDepths];
-        inputs.fill(model, scene, bindings);
+        parts.inputs.fill(model, scene, bindings);
         scene.captureTarget = target.address;
         useRates(model, rates, rateTexels, scene, bindings);
         bindings[kBindDrawFaces].texels = drawFaces.view.get();
@@ -55,7 +71,7 @@ struct Capture {
         device.run([&](VkCommandBuffer commands) {
             constexpr std::uint32_t notANumber = 0xffffffffu; // what is never written must not look like a point
             vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, notANumber);
-            writeScene(commands, inputs.scene(), scene);
+            writeScene(commands, parts.inputs.scene(), scene);
             VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
             info.renderArea = {{0, 0}, {1, 1}};
             info.layerCount = 1;
@@ -94,11 +110,11 @@ CapturedMesh Capture::patches() {
     const DrawPlan plan = planPatches(
         model, rates, options.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw));
     const bool isTriangles = model.isTriangles();
-    const Pipeline pipeline =
-        makePipeline({{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("patch.vert", isTriangles)},
-                      {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaderCode("patch.tesc", isTriangles)},
-                      {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaderCode("patch_capture.tese", isTriangles)}},
-                     VK_PRIMITIVE_TOPOLOGY_PATCH_LIST);
+    const Pipeline& pipeline =
+        pipelineOf({{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("patch.vert", isTriangles)},
+                    {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaderCode("patch.tesc", isTriangles)},
+                    {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaderCode("patch_capture.tese", isTriangles)}},
+                   VK_PRIMITIVE_TOPOLOGY_PATCH_LIST);
     const std::uint64_t vertexCount = plan.triangleCount * 3;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT);
     const auto bindTarget = PFN_vkCmdBindTransformFeedbackBuffersEXT(
@@ -126,9 +142,9 @@ CapturedMesh Capture::grids() {
         fail(Failure::usage, "{} does not let vertex shaders write: its grids cannot be read back",
              device.traits().name);
     const DrawPlan plan = planGrids(model, rates);
-    const Pipeline pipeline =
-        makePipeline({{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("grid_capture.vert", model.isTriangles())}},
-                     VK_PRIMITIVE_TOPOLOGY_POINT_LIST);
+    const Pipeline& pipeline =
+        pipelineOf({{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("grid_capture.vert", model.isTriangles())}},
+                   VK_PRIMITIVE_TOPOLOGY_POINT_LIST);
     std::uint64_t vertexCount = 0;
     for (const DrawBatch& b : plan.batches) vertexCount += std::uint64_t(b.columns + 1) * (b.rows + 1) * b.faceCount;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -157,17 +173,18 @@ CapturedMesh Capture::grids() {
 }
 
 CapturedMesh Capture::diced() {
-    Dicer dicer(device);
-    const DicedMesh diced = dicer.dice(model, rates, {.normal = NormalKind::limit, .memory = options.memory});
+    const DicedMesh diced = parts.dicer.dice(model, rates, {.normal = NormalKind::limit, .memory = options.memory});
     DenseMesh host = relief::readBack(device, diced);
     return {std::move(host.positions), boundaryVertices(device, model, diced), std::move(host.indices)};
 }
 
 } // namespace
 
-CapturedMesh captureTriangles(Device& device, const Model& model, const TriangleOptions& options,
-                              const EdgeRates& rates) {
-    Capture capture{device, model, options, rates};
+Capturer::Capturer(Device& device) : parts_(std::make_unique<Parts>(device)) {}
+Capturer::~Capturer() = default;
+
+CapturedMesh Capturer::capture(const Model& model, const TriangleOptions& options, const EdgeRates& rates) {
+    Capture capture{*parts_, model, options, rates};
     if (options.path == Path::dice) return capture.diced();
     return options.path == Path::grid ? capture.grids() : capture.patches();
 }

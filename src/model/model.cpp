@@ -125,12 +125,14 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
     heightPyramid_ =
         std::make_unique<HeightPyramid>(desc.height != nullptr ? HeightPyramid(*desc.height) : HeightPyramid());
-    faceBounds_ = relief::faceBounds(s, refined, desc.height, *heightPyramid_);
+    faceReaches_ = relief::faceReaches(s, desc.height, *heightPyramid_);
+    faceBounds_ = relief::faceBounds(s, refined, faceReaches_);
     if (enclosesVolume(s))
         normalBounds_ = relief::normalBounds(s, refined, desc.height != nullptr ? heightPyramid_.get() : nullptr);
     std::vector<vec4> points;
     for (const vec3& p : refined) points.emplace_back(p, 1.0f);
-    points_ = uploadTexels(device, {.name = "points"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(points)));
+    points_.texels =
+        uploadTexels(device, {.name = "points"}, VK_FORMAT_R32G32B32A32_SFLOAT, std::as_bytes(std::span(points)));
     texPoints_ = uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT,
                               std::as_bytes(std::span(s.texPoints)));
     mesh_ = uploadTexels(device, {.name = "no mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
@@ -164,7 +166,7 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     meshTexCoords_ = uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT,
                                   std::as_bytes(std::span(mesh.texCoords)));
     texPoints_ = uploadTexels(device, {.name = "no texture points"}, VK_FORMAT_R32G32_SFLOAT, {});
-    points_ = uploadTexels(device, {.name = "no points"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
+    points_.texels = uploadTexels(device, {.name = "no points"}, VK_FORMAT_R32G32B32A32_SFLOAT, {});
     records_ = uploadTexels(device, {.name = "no records"}, VK_FORMAT_R32G32B32A32_UINT, {});
     words_ = uploadTexels(device, {.name = "no words"}, VK_FORMAT_R32_UINT, {});
     indices_ = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
@@ -216,7 +218,10 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     scene.firstTexPatchPoint = firstTexPatchPoint_;
     bindings[kBindRecords].texels = records_.view.get();
     bindings[kBindWords].texels = words_.view.get();
-    bindings[kBindPoints].texels = points_.view.get();
+    bindings[kBindPoints].texels = points_.texels.view.get();
+    scene.pointsNow = points_.now;
+    scene.pointsBefore = points_.before;
+    scene.pointsRest = points_.rest.value_or(0);
     bindings[kBindTexPoints].texels = texPoints_.view.get();
     bindings[kBindMesh].texels = mesh_.view.get();
     bindings[kBindMeshTexCoords].texels = meshTexCoords_.view.get();
@@ -231,6 +236,14 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     scene.mapRepeats = wrap_ == Wrap::repeat ? 1 : 0;
     scene.edgeCount = std::uint32_t(edgeIsHalf_.size());
 }
+
+void Model::usePoints(PointSets points) {
+    byteCount_ += points.texels.buffer.bytes - points_.texels.buffer.bytes;
+    points_ = std::move(points);
+    normalBounds_.clear(); // of another pose
+}
+
+void Model::useFaceBounds(std::vector<Bounds> bounds) { faceBounds_ = std::move(bounds); }
 
 std::vector<float> Model::uniformRates(float rate) const {
     std::vector<float> rates(edgeIsHalf_.size());

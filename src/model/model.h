@@ -36,6 +36,13 @@ struct EdgeOnMap {
     float heightRange = 0; ///< highest less lowest along it, from bounds: cage units
 };
 
+/// Points that patches are made of, one pose after another in a texel buffer: where each begins.
+struct PointSets {
+    TexelBuffer texels;                ///< four floats a point, the last one unused
+    std::uint32_t now = 0, before = 0; ///< of this frame, and of the one that motion is measured from
+    std::optional<std::uint32_t> rest; ///< heights stretch with the surface since this one
+};
+
 /// What the device holds of a cage (or a dense mesh): flat arrays and maps. The desc may go away afterwards.
 class Model {
 public:
@@ -44,12 +51,16 @@ public:
 
     /// Fills the model's part of a scene and of its bindings (kBind...; the samplers of images are not touched).
     void describe(Scene& scene, std::span<Binding> bindings) const;
+    /// Takes another pose's points in place of its own (module pose makes them), and the boxes around its faces.
+    void usePoints(PointSets points);
+    void useFaceBounds(std::vector<Bounds> bounds);
     /// Rates of all edges when a cage edge has `rate` segments: half of it, rounded up, for the halves of edges beside
     /// n-gons.
     [[nodiscard]] std::vector<float> uniformRates(float rate) const;
 
     [[nodiscard]] bool isDense() const { return isDense_; }
     [[nodiscard]] const Buffer& indices() const { return indices_; } ///< of a dense mesh
+    [[nodiscard]] const Buffer& meshVertices() const { return mesh_.buffer; } ///< position with height, normal
     [[nodiscard]] std::uint32_t indexCount() const { return indexCount_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; } ///< of a dense mesh
     [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
@@ -59,6 +70,12 @@ public:
     [[nodiscard]] const std::vector<NormalBounds>& normalBounds() const { return normalBounds_; }
     /// Boxes around displaced faces; empty ones for holes.
     [[nodiscard]] const std::vector<Bounds>& faceBounds() const { return faceBounds_; }
+    /// Largest |h| on each face, cage units.
+    [[nodiscard]] const std::vector<float>& faceReaches() const { return faceReaches_; }
+    /// Whether heights grow with the surface since a rest pose.
+    [[nodiscard]] bool stretches() const { return points_.rest.has_value(); }
+    /// Whether it holds the pose that motion is measured from.
+    [[nodiscard]] bool hasMotion() const { return points_.before != points_.now; }
     /// What edges are on the height map; measured when first asked for (empty then).
     [[nodiscard]] std::vector<EdgeOnMap>& edgesOnMap() const { return edgesOnMap_; }
     [[nodiscard]] const HeightPyramid& heightPyramid() const { return *heightPyramid_; }
@@ -84,7 +101,8 @@ private:
     void uploadDense(Device& device, const DenseMesh& mesh);
     void uploadMaps(Device& device, const ModelDesc& desc);
 
-    TexelBuffer records_, words_, points_, texPoints_, mesh_, meshTexCoords_, heights_;
+    PointSets points_;
+    TexelBuffer records_, words_, texPoints_, mesh_, meshTexCoords_, heights_;
     Buffer indices_;
     Texture albedoMap_;
     std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstTouch_ = 0;
@@ -96,6 +114,7 @@ private:
     mutable std::vector<EdgeOnMap> edgesOnMap_;
     std::unique_ptr<HeightPyramid> heightPyramid_;
     std::vector<Bounds> faceBounds_;
+    std::vector<float> faceReaches_;
     std::vector<NormalBounds> normalBounds_;
     std::vector<std::uint32_t> mapFirsts_; ///< where the texels of each level begin
     std::vector<bool> edgeIsHalf_, patchIsRegular_;
@@ -256,12 +275,23 @@ struct CapturedMesh {
     std::vector<std::uint32_t> indices; ///< three a triangle
 };
 
-/// Tessellation: by transform feedback (Failure::usage where the device has none); grid: stored by the vertex shader;
-/// dice: read back.
-CapturedMesh captureTriangles(Device& device, const Model& model, const TriangleOptions& options,
-                              const EdgeRates& rates);
+/// Reads triangles back. Shaders are compiled once for a kind of model.
+class Capturer {
+public:
+    explicit Capturer(Device& device);
+    ~Capturer();
 
-/// How many triangles captureTriangles has to find.
+    /// Tessellation: by transform feedback (Failure::usage where the device has none); grid: stored by the vertex
+    /// shader; dice: read back.
+    CapturedMesh capture(const Model& model, const TriangleOptions& options, const EdgeRates& rates);
+
+    struct Parts;
+
+private:
+    std::unique_ptr<Parts> parts_;
+};
+
+/// How many triangles a Capturer has to find.
 std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates);
 
 /// Segments of all edges of the cage that have one drawn face.

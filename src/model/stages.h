@@ -20,7 +20,7 @@ struct PushConstants {
 /// Set 0 of every pass (kBind...).
 PipelineLayoutDesc passLayout();
 
-/// Specialization constants 0..9 in the order of the shaders' constant_id.
+/// Specialization constants 0..11 in the order of the shaders' constant_id.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
@@ -29,11 +29,14 @@ struct ShaderConstants {
     bool hasAlbedoMap = false;
     std::uint32_t groupSize = 64; ///< dicing: invocations of a workgroup
     bool hasMips = false;
-    bool isCommon = false; ///< dicing: insides in bicubic patches, triangles between inner samples
+    bool isCommon = false;  ///< dicing: insides in bicubic patches, triangles between inner samples
+    bool stretches = false; ///< heights grow with the surface
+    bool hasMotion = false; ///< layers: the surface was in another pose before
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
-        return {isGenericBasis, hasTexCoords, hasHeight, std::uint32_t(normal), wantsTexCoords, show, hasAlbedoMap,
-                groupSize,      hasMips,      isCommon};
+        return {isGenericBasis, hasTexCoords, hasHeight,    std::uint32_t(normal),
+                wantsTexCoords, show,         hasAlbedoMap, groupSize,
+                hasMips,        isCommon,     stretches,    hasMotion};
     }
 };
 
@@ -97,7 +100,10 @@ void useRates(const Model& model, const EdgeRates& rates, const RateTexels& texe
               std::span<Binding> bindings);
 
 inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
-    return {.hasTexCoords = model.hasTexCoords(), .hasHeight = model.hasHeight(), .normal = normal};
+    return {.hasTexCoords = model.hasTexCoords(),
+            .hasHeight = model.hasHeight(),
+            .normal = normal,
+            .stretches = model.stretches()};
 }
 
 /// Two triangles a cell, row after row: the first rows of a larger grid with as many columns.

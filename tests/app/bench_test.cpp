@@ -80,8 +80,9 @@ TEST(Bench, quickRunsEverySuiteAndItsReportOpensInABrowser) {
     const std::string json = folder / "r.json", csv = folder / "r.csv", report = folder / "r.html";
     expectDone(relief({"bench", "--quick", "-q", "--json", json, "--csv", csv, "--report", report}));
     const Results results = parseResults(readFile(json), json);
-    for (const std::string& suite : suiteNames())
+    for (const std::string& suite : suiteNames()) {
         EXPECT_TRUE(std::ranges::any_of(results.rows, [&](const Row& row) { return row.suite == suite; })) << suite;
+    }
     for (const Row& row : results.rows) {
         if (row.suite != "bandwidth") continue;
         EXPECT_LE(row.get("rms", 1), 1.02 * row.at) << row.contestant;

@@ -17,6 +17,8 @@ namespace relief::test {
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
+inline const fs::path kProject = RELIEF_SOURCE;
+
 struct Line {
     std::string file; ///< relative to the project
     int number = 0;

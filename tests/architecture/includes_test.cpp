@@ -6,8 +6,6 @@
 namespace relief::test {
 namespace {
 
-const fs::path kProject = RELIEF_SOURCE;
-
 Modules projectModules() { return modulesOf(linesOf(kProject, "CMakeLists.txt")); }
 
 TEST(Architecture, everyIncludeIsInTheTable) {

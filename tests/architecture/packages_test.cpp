@@ -6,8 +6,6 @@
 namespace relief::test {
 namespace {
 
-const fs::path kProject = RELIEF_SOURCE;
-
 /// What CMake looks for, by the words it looks with, and the Debian package that brings it.
 const std::map<std::string, std::string> kPackageOf = {
     {"OpenSubdivFar", "libosd-dev"},
@@ -25,6 +23,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glm/glm.hpp", "libglm-dev"},
+    {"tiny_gltf.h", "libtinygltf-dev"},
     {"OpenImageIO/imageio.h", "libopenimageio-dev"},
     {"OpenImageIO", "libopenimageio-dev"},
     {"OpenImageIO_Util", "libopenimageio-dev"},
@@ -36,7 +35,7 @@ const std::map<std::string, std::string> kPackageOf = {
 };
 
 /// What no find_... names: tools, and what is loaded when relief runs.
-const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers"};
+const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "ffmpeg"};
 
 Names packages() {
     Names names;

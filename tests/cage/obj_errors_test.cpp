@@ -1,11 +1,11 @@
 // Every OBJ text that must be refused, with the words that its message owes to the reader.
+#include "cage/square.h"
 #include "meshes.h"
 #include "support.h"
 
 namespace relief::test {
 namespace {
 
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"; // lines 1 to 4
 const std::string kFace = "f 1 2 3 4\n";
 
 /// Expects bad input whose message starts with file and line and holds the words.

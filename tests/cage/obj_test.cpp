@@ -2,13 +2,12 @@
 #include <cmath>
 #include <limits>
 
+#include "cage/square.h"
 #include "meshes.h"
 #include "support.h"
 
 namespace relief::test {
 namespace {
-
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 Cage parse(const std::string& text) {
     Warnings warnings;

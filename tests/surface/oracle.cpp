@@ -25,7 +25,7 @@ struct Sum {
 
 std::vector<int> asInts(const std::vector<std::uint32_t>& values) { return {values.begin(), values.end()}; }
 
-std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme scheme) {
+std::unique_ptr<Far::TopologyRefiner> refinerOf(const Cage& cage, Scheme scheme) {
     const auto sizes = asInts(cage.faceSizes), corners = asInts(cage.corners), creases = asInts(cage.creaseEdges);
     const auto sharpVertices = asInts(cage.sharpVertices), holes = asInts(cage.holes);
     const auto texCorners = asInts(cage.texCorners);
@@ -82,7 +82,7 @@ bool contains(const Array& array, int value) {
 } // namespace
 
 Oracle::Oracle(const Cage& cage, Scheme scheme, int gridSize)
-    : sideCount_(scheme == Scheme::loop ? 3 : 4), gridSize_(gridSize), refiner_(makeRefiner(cage, scheme)) {
+    : sideCount_(scheme == Scheme::loop ? 3 : 4), gridSize_(gridSize), refiner_(refinerOf(cage, scheme)) {
     const bool hasNgons = std::any_of(cage.faceSizes.begin(), cage.faceSizes.end(),
                                       [&](std::uint32_t size) { return int(size) != sideCount_; });
     int levels = 0;

@@ -10,10 +10,6 @@
 namespace relief {
 namespace {
 
-bool isSame(const Touch& a, const Touch& b) {
-    return a.face == b.face && a.side == b.side && a.start == b.start && a.end == b.end;
-}
-
 bool isBefore(const Touch& a, const Touch& b) {
     return std::tie(a.face, a.side, a.start) < std::tie(b.face, b.side, b.start);
 }

@@ -5,6 +5,10 @@
 
 namespace relief {
 
+inline bool isSame(const Touch& a, const Touch& b) {
+    return a.face == b.face && a.side == b.side && a.start == b.start && a.end == b.end;
+}
+
 /// How one side of a face sees one edge: at x = start + t (end - start).
 struct Piece {
     std::uint32_t edge;

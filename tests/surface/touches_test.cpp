@@ -9,10 +9,6 @@
 namespace relief {
 namespace {
 
-bool isSame(const Touch& a, const Touch& b) {
-    return a.face == b.face && a.side == b.side && a.start == b.start && a.end == b.end;
-}
-
 TEST(IncidentTouches, areThePiecesOfAllSides) {
     for (const Family& family : allFamilies()) {
         SCOPED_TRACE(family.name);

@@ -206,4 +206,9 @@ inline std::vector<Path> capturedPaths() {
     return paths;
 }
 
+inline Capturer& capturer() {
+    static Capturer instance(device());
+    return instance;
+}
+
 } // namespace relief::test

@@ -27,7 +27,7 @@ struct Load {
 };
 
 void expectWatertight(const Load& load, const EdgeRates& rates, Path path, Tally& tally) {
-    const CapturedMesh mesh = captureTriangles(device(), load.model, {.path = path}, rates);
+    const CapturedMesh mesh = capturer().capture(load.model, {.path = path}, rates);
     const Watertightness w = checkWatertight(mesh, boundarySegments(load.model, rates));
     EXPECT_GT(w.triangles, 0u) << load.words;
     EXPECT_TRUE(w.isWatertight()) << fmt::format(

@@ -29,7 +29,7 @@ TEST_F(Mutant, isNotWatertight) {
         for (const RateKind kind : {RateKind::uniform7, RateKind::random, RateKind::fractional})
             for (const Path path : capturedPaths()) {
                 const EdgeRates rates = zooRates(model, kind, 1);
-                const CapturedMesh mesh = captureTriangles(device(), model, {.path = path}, rates);
+                const CapturedMesh mesh = capturer().capture(model, {.path = path}, rates);
                 const Watertightness w = checkWatertight(mesh, boundarySegments(model, rates));
                 EXPECT_GT(w.openEdges, 0u) << one.name << ", " << nameOf(kind) << ", " << kPathNames[int(path)];
                 EXPECT_GT(w.largestGapUlps, 0) << one.name << ", " << nameOf(kind) << ", " << kPathNames[int(path)];

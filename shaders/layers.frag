@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "scene.glsl"
+#define RELIEF_VARYING in
+#include "varyings.glsl"
+#include "octahedral.glsl"
+
+// Which point of the surface a pixel sees at its centre: what layers.comp goes by.
+layout(location = 0) out vec4 normalAndTexCoords; // octahedral, (s,t)
+layout(location = 1) out vec4 place;              // (u,v) in the face, height, the face's number and 1
+
+void main() {
+    normalAndTexCoords = vec4(octahedral(gl_FrontFacing ? vNormal : -vNormal), vTexCoord.xy);
+    place = vec4(vTexCoord.zw, vHeight, float(vFace) + 1.0);
+}

@@ -1,0 +1,66 @@
+// A cage a file: the points move, the faces stay.
+#include "animation/frames.h"
+#include "animation/keys.h"
+
+namespace relief {
+namespace {
+
+class CageSequence : public KeyReader {
+public:
+    CageSequence(std::string pattern, std::vector<int> frames, const Cage& cage)
+        : pattern_(std::move(pattern)), frames_(std::move(frames)), pointCount_(cage.positions.size()),
+          faceSizes_(cage.faceSizes), corners_(cage.corners) {}
+
+    [[nodiscard]] std::string name(std::size_t key) const override {
+        return fmt::format("{}: frame {}", frameName(pattern_, frames_[key]), frames_[key]);
+    }
+
+    std::vector<vec3> read(std::size_t key) override {
+        Cage cage = readCage(frameName(pattern_, frames_[key]), [](const std::string&) {}); // tags mean nothing here
+        checkTopology(cage, name(key));
+        return std::move(cage.positions);
+    }
+
+private:
+    void checkTopology(const Cage& cage, const std::string& key) const;
+
+    std::string pattern_;
+    std::vector<int> frames_;
+    std::size_t pointCount_;
+    std::vector<std::uint32_t> faceSizes_, corners_;
+};
+
+void CageSequence::checkTopology(const Cage& cage, const std::string& key) const {
+    constexpr const char* kRule = "all files of a sequence need the faces of the cage";
+    if (cage.positions.size() != pointCount_)
+        fail(Failure::input, "{}: there are {} points, the cage has {}; {}", key, cage.positions.size(), pointCount_,
+             kRule);
+    if (cage.faceCount() != faceSizes_.size())
+        fail(Failure::input, "{}: there are {} faces, the cage has {}; {}", key, cage.faceCount(), faceSizes_.size(),
+             kRule);
+    std::size_t corner = 0;
+    for (std::size_t face = 0; face < faceSizes_.size(); ++face) {
+        if (cage.faceSizes[face] != faceSizes_[face])
+            fail(Failure::input, "{}: face {} has {} corners, in the cage {}; {}", key, face, cage.faceSizes[face],
+                 faceSizes_[face], kRule);
+        for (std::uint32_t k = 0; k < faceSizes_[face]; ++k, ++corner)
+            if (cage.corners[corner] != corners_[corner])
+                fail(Failure::input, "{}: corner {} of face {} is point {}, in the cage {}; {}", key, k, face,
+                     cage.corners[corner], corners_[corner], kRule);
+    }
+}
+
+} // namespace
+
+std::unique_ptr<Animation> readCageSequence(const std::string& pattern, const Cage& cage, const CacheOptions& options) {
+    if (lowerExtension(pattern) != ".obj")
+        fail(Failure::input, "{}: unknown kind of sequence '{}'; use .obj", pattern, lowerExtension(pattern));
+    const std::vector<int> frames = framesOnDisk(pattern);
+    KeyTimes times;
+    for (const int frame : frames) times.seconds.push_back(frame / options.fps);
+    auto reader = std::make_unique<CageSequence>(pattern, frames, cage);
+    reader->read(0); // a sequence of another cage is told at once
+    return animateKeys(std::move(reader), std::move(times), options.interpolation);
+}
+
+} // namespace relief

@@ -1,0 +1,201 @@
+// Deformers in a row: their text, and the animation they make.
+#include <algorithm>
+#include <cmath>
+
+#include "animation/animation.h"
+#include "animation/arithmetic.h"
+#include "animation/deformers.h"
+
+namespace relief {
+namespace {
+
+constexpr double kStandInSeconds = 4; ///< what moves without an end is shown for so long
+
+struct Deformer {
+    const DeformerKind* kind = nullptr;
+    std::size_t column = 0;
+    std::vector<Arithmetic> values; ///< one a value of the kind
+};
+
+template <typename Kind>
+std::vector<std::string> namesOf(const std::vector<Kind>& kinds) {
+    std::vector<std::string> names;
+    names.reserve(kinds.size());
+    for (const Kind& kind : kinds) names.push_back(kind.name);
+    return names;
+}
+
+// --- reading -----------------------------------------------------------------------------------------------------
+
+constexpr double kNextAxis = 3; ///< until the deformer's own axis is known
+
+Arithmetic constantValue(double number) { return {.steps = {Step::number}, .numbers = {number}}; }
+
+Arithmetic readAxis(TextReader& text) {
+    const std::vector<std::string> names = {"x", "y", "z", "next"};
+    TextReader before = text;
+    const std::string_view word = text.takeWord();
+    if (word.empty()) text.failExpecting("an axis: x, y, z or next");
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) before.failUnknown(word, "axis", names);
+    return constantValue(double(found - names.begin()));
+}
+
+Arithmetic readValue(const ValueKind& kind, TextReader& text) {
+    return kind.isAxis ? readAxis(text) : readArithmetic(text);
+}
+
+/// The kind whose name comes next.
+template <typename Kind>
+std::size_t takeName(const std::vector<Kind>& kinds, const std::string& what, TextReader& text) {
+    const std::vector<std::string> names = namesOf(kinds);
+    TextReader before = text;
+    const std::string_view word = text.takeWord();
+    if (word.empty()) text.failExpecting(fmt::format("a {}: {}", what, fmt::join(names, ", ")));
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end()) before.failUnknown(word, what, names);
+    return std::size_t(found - names.begin());
+}
+
+/// "angle=90*t, axis=x", up to the closing parenthesis.
+void readGivenValues(Deformer& deformer, TextReader& text) {
+    const std::vector<ValueKind>& kinds = deformer.kind->values;
+    while (!text.take(')')) {
+        const std::size_t column = text.column();
+        const std::size_t value = takeName(kinds, "value of " + deformer.kind->name, text);
+        if (!deformer.values[value].steps.empty()) failAtColumn(column, "{} is given twice", kinds[value].name);
+        if (!text.take('=')) text.failExpecting(fmt::format("'=' after {}", kinds[value].name));
+        deformer.values[value] = readValue(kinds[value], text);
+        if (text.take(')')) return;
+        if (!text.take(',')) text.failExpecting(kinds[value].isAxis ? "',' or ')'" : "an operator, ',' or ')'");
+    }
+}
+
+/// The first axis is the deformer's own; others must differ from it.
+void settleAxes(Deformer& deformer) {
+    const std::vector<ValueKind>& kinds = deformer.kind->values;
+    if (!kinds.front().isAxis) return;
+    double& own = deformer.values.front().numbers.front();
+    if (own == kNextAxis)
+        failAtColumn(deformer.column, "{} of {} is x, y or z", kinds.front().name, deformer.kind->name);
+    for (std::size_t i = 1; i < kinds.size(); ++i) {
+        if (!kinds[i].isAxis) continue;
+        double& other = deformer.values[i].numbers.front();
+        if (other == kNextAxis) other = int(own + 1) % 3;
+        if (other == own)
+            failAtColumn(deformer.column, "{} and {} of {} are the same axis; choose two", kinds.front().name,
+                         kinds[i].name, deformer.kind->name);
+    }
+}
+
+Deformer readDeformer(TextReader& text) {
+    Deformer deformer{.column = text.column()};
+    deformer.kind = &deformerKinds()[takeName(deformerKinds(), "deformer", text)];
+    deformer.values.resize(deformer.kind->values.size());
+    if (!text.take('(')) text.failExpecting(fmt::format("'(' after {}", deformer.kind->name));
+    readGivenValues(deformer, text);
+    for (std::size_t i = 0; i < deformer.values.size(); ++i) {
+        TextReader standard(deformer.kind->values[i].standard);
+        if (deformer.values[i].steps.empty()) deformer.values[i] = readValue(deformer.kind->values[i], standard);
+    }
+    settleAxes(deformer);
+    return deformer;
+}
+
+std::vector<Deformer> readDeformers(const std::string& expression) {
+    TextReader text(expression);
+    std::vector<Deformer> deformers;
+    do deformers.push_back(readDeformer(text));
+    while (!text.isAtEnd());
+    return deformers;
+}
+
+// --- posing ------------------------------------------------------------------------------------------------------
+
+Bounds boxOf(const Cage& cage) {
+    Bounds box;
+    for (const std::uint32_t point : cage.corners) box.add(cage.positions[point]);
+    return box;
+}
+
+double valueAt(const Deformer& deformer, std::size_t index, double t) {
+    const ValueKind& kind = deformer.kind->values[index];
+    const double value = deformer.values[index].at(t);
+    const auto failWith = [&](const std::string& need) {
+        fail(Failure::usage, "deformers: column {}: {} of {} is {} at t = {} seconds; {}", deformer.column, kind.name,
+             deformer.kind->name, value, t, need);
+    };
+    if (!std::isfinite(value)) failWith("a finite number is needed");
+    if (value <= kind.above) failWith(fmt::format("it must be above {}", kind.above));
+    if (value >= kind.below) failWith(fmt::format("it must be below {}", kind.below));
+    return value;
+}
+
+Move moveAt(const Deformer& deformer, const Bounds& box, double t) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < deformer.values.size(); ++i) values.push_back(valueAt(deformer, i, t));
+    return deformer.kind->make({.box = box, .values = values, .seconds = t});
+}
+
+bool movesWithTime(const Deformer& deformer) {
+    for (const Arithmetic& value : deformer.values)
+        if (value.usesTime()) return true;
+    return deformer.kind->speedValue >= 0 && deformer.values[std::size_t(deformer.kind->speedValue)].at(0) != 0;
+}
+
+class DeformedAnimation : public Animation {
+public:
+    DeformedAnimation(std::unique_ptr<Animation> base, const Bounds& box, std::vector<Deformer> deformers)
+        : base_(std::move(base)), box_(box), deformers_(std::move(deformers)) {}
+
+    [[nodiscard]] Pose pose(double seconds) const override;
+    [[nodiscard]] dvec2 keyRange() const override;
+
+private:
+    std::unique_ptr<Animation> base_;
+    Bounds box_;
+    std::vector<Deformer> deformers_;
+};
+
+Pose DeformedAnimation::pose(double seconds) const {
+    std::vector<Move> moves;
+    for (const Deformer& deformer : deformers_)
+        if (Move move = moveAt(deformer, box_, seconds)) moves.push_back(std::move(move));
+
+    Pose pose{.positions = posedPositions(base_->rig(), base_->pose(seconds)), .joints = {}, .morphWeights = {}};
+    for (std::size_t i = 0; i < pose.positions.size(); ++i) {
+        dvec3 p(pose.positions[i]);
+        for (const Move& move : moves) p = move(p);
+        pose.positions[i] = p;
+        if (const vec3& q = pose.positions[i]; !std::isfinite(double(q.x) + q.y + q.z))
+            fail(Failure::usage, "deformers: point {} goes to ({} {} {}) at t = {} seconds; use smaller values", i, p.x,
+                 p.y, p.z, seconds);
+    }
+    return pose;
+}
+
+dvec2 DeformedAnimation::keyRange() const {
+    const dvec2 range = base_->keyRange();
+    if (std::none_of(deformers_.begin(), deformers_.end(), movesWithTime)) return range;
+    return {std::min(range.x, 0.0), std::max(range.y, kStandInSeconds)};
+}
+
+} // namespace
+
+std::unique_ptr<Animation> deform(std::unique_ptr<Animation> base, const Cage& cage, const std::string& expression) {
+    return std::make_unique<DeformedAnimation>(std::move(base), boxOf(cage), readDeformers(expression));
+}
+
+std::string deformerHelp() {
+    std::string help;
+    for (const DeformerKind& kind : deformerKinds()) {
+        std::vector<std::string> values;
+        for (const ValueKind& value : kind.values) values.push_back(value.name + "=" + value.standard);
+        help += fmt::format("  {}({})\n      {}\n", kind.name, fmt::join(values, ", "), kind.help);
+    }
+    return help + "Values have these defaults. The box is that of the cage at rest, deformers work from its centre.\n"
+                  "Axes are x, y, z or next (the one after `axis`). Other values are arithmetic over t, the seconds:\n"
+                  "numbers, pi, + - * / ^, parentheses, sin cos abs (radians), min(a, b), max(a, b).\n";
+}
+
+} // namespace relief

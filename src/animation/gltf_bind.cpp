@@ -1,0 +1,276 @@
+#include "animation/gltf_bind.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/point_tree.h"
+
+namespace relief {
+namespace {
+
+static_assert(kMostGltfInfluences == kMostInfluences);
+
+constexpr std::uint64_t kMostOffsets = 1ull << 28;
+constexpr double kTolerance = 1e-5; // of the cage's diagonal: what a number loses in a text of six digits
+
+/// A vertex of a mesh that a node shows.
+struct Source {
+    std::uint32_t node = 0;
+    const GltfPrimitive* primitive = nullptr;
+    std::uint32_t vertex = 0;
+};
+
+std::vector<Source> sourcesOf(const GltfScene& scene) {
+    std::vector<Source> sources;
+    for (const std::uint32_t node : scene.meshNodes)
+        for (const GltfPrimitive& primitive : scene.meshes[std::size_t(scene.nodes[node].mesh)].primitives)
+            for (std::uint32_t vertex = 0; vertex < primitive.positions.size(); ++vertex)
+                sources.push_back({node, &primitive, vertex});
+    return sources;
+}
+
+// --- which vertex is whose --------------------------------------------------------------------------------------
+
+bool isFinite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+
+/// Where all vertices are in the world when nothing moves, to the bit as a cage from this file has them.
+std::vector<dvec3> restPlaces(const GltfScene& scene, const std::vector<Source>& sources, const std::string& path) {
+    const std::vector<glm::dmat4> worlds = worldMatrices(scene, restTransforms(scene));
+    std::vector<glm::dmat4> joints;
+    std::vector<dvec3> places;
+    places.reserve(sources.size());
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const auto& [node, primitive, vertex] = sources[i];
+        if (i == 0 || node != sources[i - 1].node) joints = jointMatrices(scene, node, worlds);
+        const glm::dmat4 matrix = blendedMatrix(*primitive, vertex, scene.nodes[node].skin >= 0, joints);
+        const dvec3 morphed = morphedPosition(*primitive, vertex, scene.nodes[node].weights);
+        const vec3 place(dvec3(matrix * glm::dvec4(morphed, 1)));
+        if (!isFinite(place))
+            fail(Failure::input, "{}: nodes/{}: its vertex {} does not stand at finite numbers", path, node, vertex);
+        places.emplace_back(place);
+    }
+    return places;
+}
+
+/// Where they are in the spaces of their meshes.
+std::vector<dvec3> meshPlaces(const std::vector<Source>& sources) {
+    std::vector<dvec3> places;
+    places.reserve(sources.size());
+    for (const Source& source : sources) places.emplace_back(source.primitive->positions[source.vertex]);
+    return places;
+}
+
+/// The nearest vertex of each cage point.
+struct Match {
+    std::vector<std::uint32_t> sources;
+    std::vector<double> distances;
+    bool isAtRest = true; ///< by the vertices' places in the world at rest, not in their meshes
+
+    [[nodiscard]] double largestDistance() const { return *std::max_element(distances.begin(), distances.end()); }
+};
+
+Match matchNearest(const Cage& cage, std::vector<dvec3> places, bool isAtRest) {
+    const PointTree tree(std::move(places));
+    Match match{.sources = {}, .distances = {}, .isAtRest = isAtRest};
+    for (const vec3& position : cage.positions) {
+        const dvec3 p(position);
+        double nearest = std::numeric_limits<double>::infinity();
+        std::uint32_t found = 0;
+        const auto distance = [&](const Bounds& box) {
+            return glm::length(glm::max(glm::max(box.lower - p, p - box.upper), dvec3(0)));
+        };
+        tree.search(distance, nearest, [&](std::uint32_t source) {
+            const double away = glm::length(tree[source] - p);
+            if (away < nearest || (away == nearest && source < found)) nearest = away, found = source;
+        });
+        match.sources.push_back(found);
+        match.distances.push_back(nearest);
+    }
+    return match;
+}
+
+void checkExact(const Match& match, const Cage& cage, double tolerance, const std::string& path) {
+    const auto isOff = [&](double distance) { return !(distance <= tolerance); };
+    const auto first = std::find_if(match.distances.begin(), match.distances.end(), isOff);
+    if (first == match.distances.end()) return;
+    const auto point = std::size_t(first - match.distances.begin());
+    const vec3& p = cage.positions[point];
+    fail(Failure::input,
+         "{}: {} of {} cage points have no vertex at their place; point {} at ({}, {}, {}) is {:.4g} away from the "
+         "nearest; --bind-nearest takes that one",
+         path, std::count_if(match.distances.begin(), match.distances.end(), isOff), cage.positions.size(), point, p.x,
+         p.y, p.z, *first);
+}
+
+Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Source>& sources, bool bindsNearest,
+                const std::string& path) {
+    Bounds bounds;
+    for (const vec3& p : cage.positions) bounds.add(dvec3(p));
+    const double tolerance = kTolerance * bounds.diagonal();
+    Match atRest = matchNearest(cage, restPlaces(scene, sources, path), true);
+    if (atRest.largestDistance() <= tolerance) return atRest;
+    Match inMeshes = matchNearest(cage, meshPlaces(sources), false);
+    if (inMeshes.largestDistance() <= tolerance) return inMeshes;
+    if (!bindsNearest) checkExact(atRest, cage, tolerance, path);
+    return atRest;
+}
+
+// --- the rig of the matched vertices ----------------------------------------------------------------------------
+
+/// The joints that move a point, by their numbers in the rig.
+struct Influences {
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, kMostInfluences> joints{};
+    std::array<float, kMostInfluences> weights{};
+
+    void add(std::uint32_t joint, float weight) { joints[count] = joint, weights[count] = weight, ++count; }
+};
+
+class Binder {
+public:
+    Binder(const GltfScene& scene, const std::vector<Source>& sources, const Match& match, const std::string& path)
+        : scene_(scene), sources_(sources), match_(match), path_(path) {}
+
+    /// Joints, weights and morph offsets; rest is the vertices' own.
+    GltfBinding bind() {
+        for (const std::uint32_t source : match_.sources) influences_.push_back(influencesOf(sources_[source]));
+        packInfluences();
+        for (const std::uint32_t source : match_.sources)
+            binding_.rig.rest.push_back(sources_[source].primitive->positions[sources_[source].vertex]);
+        addMorphs();
+        return std::move(binding_);
+    }
+
+private:
+    Influences influencesOf(const Source& source);
+    std::uint32_t jointOf(int skin, std::uint32_t index);
+    void packInfluences();
+    void addMorphs();
+
+    const GltfScene& scene_;
+    const std::vector<Source>& sources_;
+    const Match& match_;
+    const std::string& path_;
+    GltfBinding binding_;
+    std::vector<Influences> influences_;
+    std::map<std::pair<int, std::uint32_t>, std::uint32_t> joints_; ///< (skin, joint), or (-1, node) without skin
+};
+
+std::uint32_t Binder::jointOf(int skin, std::uint32_t index) {
+    const auto [joint, isNew] = joints_.try_emplace({skin, index}, std::uint32_t(binding_.joints.size()));
+    if (isNew && skin < 0) binding_.joints.push_back({.node = index});
+    if (isNew && skin >= 0) {
+        const GltfSkin& from = scene_.skins[std::size_t(skin)];
+        binding_.joints.push_back({.node = from.joints[index], .inverseBind = from.inverseBinds[index]});
+    }
+    return joint->second;
+}
+
+Influences Binder::influencesOf(const Source& source) {
+    const GltfPrimitive& primitive = *source.primitive;
+    const int skin = scene_.nodes[source.node].skin;
+    Influences influences;
+    if (skin < 0) {
+        influences.add(jointOf(-1, source.node), 1);
+        return influences;
+    }
+    for (std::size_t i = 0; i < primitive.influenceCount; ++i) {
+        const std::size_t at = std::size_t(source.vertex) * primitive.influenceCount + i;
+        if (primitive.weights[at] != 0) influences.add(jointOf(skin, primitive.joints[at]), primitive.weights[at]);
+    }
+    return influences;
+}
+
+/// Points with fewer joints than others get joints without weight.
+void Binder::packInfluences() {
+    Rig& rig = binding_.rig;
+    rig.jointCount = std::uint32_t(binding_.joints.size());
+    for (const Influences& influences : influences_)
+        rig.influenceCount = std::max(rig.influenceCount, influences.count);
+    for (const Influences& influences : influences_)
+        for (std::uint32_t i = 0; i < rig.influenceCount; ++i) {
+            rig.joints.push_back(influences.joints[i]);
+            rig.weights.push_back(influences.weights[i]);
+        }
+}
+
+/// Morph targets of each node that has some; they leave the points of other nodes where they are.
+void Binder::addMorphs() {
+    std::map<std::uint32_t, std::uint32_t> firstMorphs; // by node
+    for (const std::uint32_t source : match_.sources) {
+        const std::uint32_t node = sources_[source].node;
+        if (!firstMorphs.try_emplace(node, std::uint32_t(binding_.morphs.size())).second) continue;
+        for (std::uint32_t target = 0; target < scene_.nodes[node].weights.size(); ++target)
+            binding_.morphs.push_back({.node = node, .target = target});
+    }
+    Rig& rig = binding_.rig;
+    rig.morphCount = std::uint32_t(binding_.morphs.size());
+    if (rig.morphCount * rig.rest.size() > kMostOffsets)
+        fail(Failure::input, "{}: {} morph targets of {} cage points; together up to {} are possible", path_,
+             rig.morphCount, rig.rest.size(), kMostOffsets);
+    rig.morphOffsets.resize(rig.morphCount * rig.rest.size(), vec3(0));
+    for (std::size_t point = 0; point < match_.sources.size(); ++point) {
+        const auto& [node, primitive, vertex] = sources_[match_.sources[point]];
+        for (std::size_t target = 0; target < scene_.nodes[node].weights.size(); ++target)
+            rig.morphOffsets[(firstMorphs[node] + target) * rig.rest.size() + point] =
+                primitive->offsets[target * primitive->positions.size() + vertex];
+    }
+}
+
+// --- points between vertices ------------------------------------------------------------------------------------
+
+/// Joints of the rig at rest as a pose has them.
+std::vector<glm::dmat4> restJoints(const GltfScene& scene, const GltfBinding& binding) {
+    const std::vector<glm::dmat4> worlds = worldMatrices(scene, restTransforms(scene));
+    std::vector<glm::dmat4> joints;
+    for (const GltfJoint& joint : binding.joints) joints.emplace_back(mat4(worlds[joint.node] * joint.inverseBind));
+    return joints;
+}
+
+/// Rest such that the pose at rest has the cage's own points. Returns how many cannot have it: their joints flatten
+/// space.
+std::size_t keepPlaces(const GltfScene& scene, const Cage& cage, GltfBinding& binding) {
+    const std::vector<glm::dmat4> joints = restJoints(scene, binding);
+    Rig& rig = binding.rig;
+    std::size_t flatCount = 0;
+    for (std::size_t point = 0; point < rig.rest.size(); ++point) {
+        glm::dmat4 matrix(0);
+        for (std::size_t i = point * rig.influenceCount; i < (point + 1) * rig.influenceCount; ++i)
+            matrix += double(rig.weights[i]) * joints[rig.joints[i]];
+        const glm::dmat3 linear(matrix);
+        dvec3 rest = glm::inverse(linear) * (dvec3(cage.positions[point]) - dvec3(matrix[3]));
+        for (std::size_t k = 0; k < binding.morphs.size(); ++k)
+            rest -= scene.nodes[binding.morphs[k].node].weights[binding.morphs[k].target] *
+                    dvec3(rig.morphOffsets[k * rig.rest.size() + point]);
+        if (isFinite(vec3(rest)))
+            rig.rest[point] = vec3(rest);
+        else
+            ++flatCount;
+    }
+    return flatCount;
+}
+
+} // namespace
+
+GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest, const std::string& path,
+                     const Warn& warn) {
+    if (cage.positions.empty()) fail(Failure::input, "{}: there is no cage point to bind", path);
+    const std::vector<Source> sources = sourcesOf(scene);
+    const Match match = matchCage(scene, cage, sources, bindsNearest, path);
+    GltfBinding binding = Binder(scene, sources, match, path).bind();
+    if (!bindsNearest) return binding;
+    if (!match.isAtRest) {
+        binding.rig.rest = cage.positions;
+        return binding;
+    }
+    const std::size_t flatCount = keepPlaces(scene, cage, binding);
+    if (flatCount > 0)
+        warn(fmt::format("{}: the joints of {} cage points have no volume at rest; they take the vertices' places",
+                         path, flatCount));
+    return binding;
+}
+
+} // namespace relief

@@ -1,0 +1,131 @@
+#include "app/clip.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace relief::app {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// Starts ffmpeg without a word on the terminal; `input` becomes its stdin.
+pid_t start(const Words& arguments, int input) {
+    Words words{"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "quiet", "-y"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawnattr_t attributes; // an interrupt is blocked here, where a thread waits for it: not in the child
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
+    pid_t process = -1;
+    const int error = posix_spawnp(&process, "ffmpeg", &files, &attributes, pointers.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    if (error != 0)
+        fail(Failure::file, "clips are made by ffmpeg, which is not installed (on Debian: apt-get install ffmpeg); "
+                            "write frames instead: -o 'frame.{{frame:4}}.png'");
+    return process;
+}
+
+int exitCodeOf(pid_t process) {
+    int status = 0;
+    waitpid(process, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// How each format is encoded. Players want even sides and 4:2:0 of .mp4; a .gif gets a palette of its own colors.
+Words encoding(const std::string& extension) {
+    if (extension == ".mp4")
+        return {"-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                "-c:v",      "libx264",
+                "-pix_fmt",  "yuv420p",
+                "-crf",      "17",
+                "-movflags", "+faststart"};
+    if (extension == ".webm")
+        return {"-vf",      "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                "-c:v",     "libvpx-vp9",
+                "-pix_fmt", "yuv420p",
+                "-crf",     "24",
+                "-b:v",     "0",
+                "-row-mt",  "1"};
+    if (extension == ".webp") return {"-c:v", "libwebp_anim", "-quality", "80", "-loop", "0"};
+    return {"-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4", "-loop",
+            "0"};
+}
+
+} // namespace
+
+bool isClipPath(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    return extension == ".mp4" || extension == ".webm" || extension == ".gif" || extension == ".webp";
+}
+
+void checkClipWriter() {
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    const int code = exitCodeOf(start({"-version"}, nothing));
+    close(nothing);
+    if (code != 0) fail(Failure::file, "ffmpeg, which makes clips, cannot be run: it ends with {}", code);
+}
+
+ClipWriter::ClipWriter(const ClipDesc& desc) : desc_(desc) {
+    std::signal(SIGPIPE, SIG_IGN); // an ffmpeg that ends early is told by write()
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail(Failure::file, "{}: no pipe to ffmpeg can be made", desc_.path);
+    pipe_ = ends[1];
+    Words words{"-f",       "rawvideo",
+                "-pix_fmt", "rgb24",
+                "-s",       fmt::format("{}x{}", desc.width, desc.height),
+                "-r",       fmt::format("{}", desc.fps),
+                "-i",       "-"};
+    for (const std::string& word : encoding(lowerExtension(desc.path))) words.push_back(word);
+    words.push_back("file:" + desc.path);
+    process_ = start(words, ends[0]);
+    close(ends[0]);
+}
+
+ClipWriter::~ClipWriter() {
+    if (pipe_ >= 0) close(pipe_);
+    if (process_ < 0) return;
+    kill(process_, SIGKILL);
+    exitCodeOf(process_);
+}
+
+void ClipWriter::write(const Image& frame) {
+    std::vector<std::uint8_t> bytes(frame.texels.size());
+    std::ranges::transform(frame.texels, bytes.begin(),
+                           [](float x) { return std::uint8_t(std::lround(255 * std::clamp(x, 0.0f, 1.0f))); });
+    for (std::size_t done = 0; done < bytes.size();) {
+        const ssize_t count = ::write(pipe_, &bytes[done], bytes.size() - done);
+        if (count < 0) finish(); // says why
+        if (count < 0) fail(Failure::file, "{}: ffmpeg stopped reading", desc_.path);
+        done += std::size_t(count);
+    }
+}
+
+void ClipWriter::finish() {
+    close(std::exchange(pipe_, -1));
+    const int code = exitCodeOf(std::exchange(process_, -1));
+    if (code != 0)
+        fail(Failure::file,
+             "{}: cannot be written: ffmpeg ends with {} (disk full, or a codec that it was built without)", desc_.path,
+             code);
+}
+
+} // namespace relief::app

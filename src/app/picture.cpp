@@ -1,0 +1,75 @@
+// What the words about a picture turn into: shared by the verbs that draw.
+#include <algorithm>
+
+#include "app/options.h"
+
+namespace relief::app {
+namespace {
+
+Show showOf(const std::string& word) {
+    static const std::map<std::string, Show> words{{"shaded", Show::shaded}, {"normal", Show::normal},
+                                                   {"height", Show::height}, {"rate", Show::rate},
+                                                   {"faces", Show::faces},   {"wireframe", Show::wireframe}};
+    return words.at(word);
+}
+
+std::vector<Layer> layersOf(const std::vector<std::string>& words) {
+    static const std::vector<std::pair<std::string, Layer>> known{{"depth", Layer::depth},   {"normal", Layer::normal},
+                                                                  {"face", Layer::face},     {"uv", Layer::uv},
+                                                                  {"height", Layer::height}, {"motion", Layer::motion}};
+    std::vector<Layer> layers;
+    for (const auto& [word, layer] : known)
+        if (std::ranges::find(words, word) != words.end() || std::ranges::find(words, "all") != words.end())
+            layers.push_back(layer);
+    return layers;
+}
+
+} // namespace
+
+void checkPicturePath(const std::string& path, const PictureArgs& args) {
+    if (!path.ends_with(".png") && !path.ends_with(".exr"))
+        fail(Failure::usage, "{}: pictures are written as .png or .exr", path);
+    if (!args.layers.empty() && !path.ends_with(".exr")) fail(Failure::usage, "{}: layers go into an .exr", path);
+}
+
+bool wantsMotion(const PictureArgs& args) {
+    const std::vector<Layer> layers = layersOf(args.layers);
+    return std::ranges::find(layers, Layer::motion) != layers.end();
+}
+
+RenderOptions renderOptions(const PictureArgs& picture, const Device& device, const std::vector<dvec3>& points) {
+    RenderOptions options{triangleOptions(picture.triangles, device)};
+    options.show = showOf(picture.show);
+    options.camera = cameraOf(picture.camera, points);
+    for (const dvec3& p : points) options.bounds.add(p);
+    options.lighting.keyAzimuth = picture.light.empty() ? picture.camera.options.azimuth - 55 : picture.light[0];
+    options.lighting.keyElevation = picture.light.empty() ? 50 : picture.light[1];
+    options.lighting.castsShadows = !picture.hasNoShadows;
+    if (!picture.albedo.empty()) options.material.albedo = vec3(1);
+    if (!picture.color.empty()) options.material.albedo = vec3(picture.color[0], picture.color[1], picture.color[2]);
+    options.layers = layersOf(picture.layers);
+    options.material.roughness = float(picture.roughness);
+    return options;
+}
+
+Finish finishOf(const PictureArgs& args) {
+    Finish finish;
+    if (args.isTransparent) finish.background = Background::transparent;
+    if (!args.background.empty()) {
+        finish.background = Background::color;
+        finish.color = vec3(args.background[0], args.background[1], args.background[2]);
+    }
+    return finish;
+}
+
+Shading loadShading(const PictureArgs& args) {
+    Shading shading;
+    if (!args.albedo.empty()) shading.albedo = readImage(args.albedo);
+    if (shading.albedo && shading.albedo->channels < 3)
+        fail(Failure::input, "{}: an albedo map has 3 channels, this one has {}", args.albedo,
+             shading.albedo->channels);
+    if (!args.environment.empty()) shading.environment = loadEnvironment(args.environment);
+    return shading;
+}
+
+} // namespace relief::app

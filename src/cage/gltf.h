@@ -1,0 +1,112 @@
+// What relief takes from a glTF 2.0 file: triangles, skins, morph targets, the tree of nodes and its animations, as
+// plain arrays that have been checked: indices exist, counts agree, numbers are finite, the tree has no cycle. Numbers
+// of sections are the specification's.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "cage/cage.h"
+
+namespace relief {
+
+constexpr std::uint32_t kMostGltfInfluences = 8; ///< the largest weights of a vertex, where a file has more
+
+/// One draw: vertices with one of everything, and the triangles between them.
+struct GltfPrimitive {
+    std::vector<vec3> positions;          ///< in the space of the mesh
+    std::vector<vec3> normals;            ///< one a vertex, or empty
+    std::vector<vec2> texCoords;          ///< TEXCOORD_0 with t turned to run up; one a vertex, or empty
+    std::vector<std::uint32_t> triangles; ///< three vertices each; none for points and lines
+    std::vector<vec3> offsets;            ///< of morph targets, one after the other: one a vertex each
+    std::uint32_t influenceCount = 0;     ///< joints a vertex; 0: the primitive has none
+    std::vector<std::uint32_t> joints;    ///< influenceCount a vertex, into the joints of a skin
+    std::vector<float> weights;           ///< as joints; those of a vertex add up to 1
+    std::string material;
+};
+
+struct GltfMesh {
+    std::string name;
+    std::vector<GltfPrimitive> primitives;
+    std::uint32_t targetCount = 0; ///< morph targets
+    std::vector<double> weights;   ///< targetCount
+};
+
+struct GltfTransform {
+    dvec3 translation{0};
+    glm::dquat rotation{1, 0, 0, 0};
+    dvec3 scale{1};
+};
+
+struct GltfNode {
+    std::string name;
+    int parent = -1, mesh = -1, skin = -1; ///< -1: none; a skin stands only beside a mesh
+    GltfTransform transform;
+    std::optional<glm::dmat4> matrix; ///< instead of the transform
+    std::vector<double> weights;      ///< of the mesh's morph targets
+};
+
+struct GltfSkin {
+    std::vector<std::uint32_t> joints;    ///< nodes
+    std::vector<glm::dmat4> inverseBinds; ///< one a joint
+};
+
+enum class GltfPath { translation, rotation, scale, weights };
+enum class GltfInterpolation { linear, step, cubicSpline };
+
+/// One property of a node over time.
+struct GltfChannel {
+    std::uint32_t node = 0;
+    GltfPath path = GltfPath::translation;
+    GltfInterpolation interpolation = GltfInterpolation::linear;
+    std::uint32_t width = 0;   ///< numbers of the property
+    std::vector<float> times;  ///< seconds, rising; at least one
+    std::vector<float> values; ///< width a time; cubicSpline: in-tangent, value and out-tangent of width each
+};
+
+struct GltfClip {
+    std::string name;
+    std::vector<GltfChannel> channels; ///< no two of one property of one node
+};
+
+struct GltfScene {
+    std::vector<GltfNode> nodes;
+    std::vector<std::uint32_t> order;     ///< all nodes, parents before their children
+    std::vector<std::uint32_t> meshNodes; ///< those of the file's scene that have a mesh, at least one; rising
+    std::vector<GltfMesh> meshes;
+    std::vector<GltfSkin> skins;
+    std::vector<GltfClip> clips;
+};
+
+/// Reads a .gltf with the buffers beside it, or a .glb: by its first bytes, whatever its name. Images are never looked
+/// at. Throws Failure::file when the file or a buffer cannot be read; Failure::input, naming the element, for anything
+/// that is not glTF 2.0, a scene without a mesh, buffers outside the file's folder, and extensions without which the
+/// file cannot be understood.
+GltfScene readGltf(const std::string& path, const Warn& warn);
+
+/// Where nodes stand when nothing moves them.
+std::vector<GltfTransform> restTransforms(const GltfScene& scene);
+
+/// From each node to the world (section 3.5); `transforms`: one a node.
+std::vector<glm::dmat4> worldMatrices(const GltfScene& scene, std::span<const GltfTransform> transforms);
+
+/// What moves the vertices of a node's mesh: of each joint of its skin, world * inverse bind (3.7.3.2: where the node
+/// itself stands does not matter then), or without a skin the node's own matrix alone.
+std::vector<glm::dmat4> jointMatrices(const GltfScene& scene, std::uint32_t node, std::span<const glm::dmat4> worlds);
+
+/// The sum of a vertex's joints by their weights; `joints` of jointMatrices.
+glm::dmat4 blendedMatrix(const GltfPrimitive& primitive, std::size_t vertex, bool isSkinned,
+                         std::span<const glm::dmat4> joints);
+
+/// A vertex with its morph targets, before joints (3.7.2.2).
+dvec3 morphedPosition(const GltfPrimitive& primitive, std::size_t vertex, std::span<const double> weights);
+
+/// The first line of foreign words as it may stand in a message: not too long, without control characters.
+std::string printable(std::string_view text);
+
+/// The scene's triangles as a cage: see readCage.
+Cage readGltfCage(const std::string& path, const Warn& warn);
+
+} // namespace relief

@@ -1,0 +1,166 @@
+#include <array>
+#include <bit>
+#include <unordered_map>
+
+#include "cage/gltf.h"
+
+namespace relief {
+namespace {
+
+/// Three numbers by their bits: what is at one place, or one place's texture coordinates.
+using Key = std::array<std::uint32_t, 3>;
+
+struct KeyHash {
+    std::size_t operator()(const Key& key) const {
+        std::size_t hash = 0;
+        for (const std::uint32_t part : key) hash = (hash ^ part) * 0x9e3779b97f4a7c15u;
+        return hash ^ (hash >> 32);
+    }
+};
+
+std::uint32_t bitsOf(float number) { return std::bit_cast<std::uint32_t>(number); }
+
+/// Both zeros become one.
+vec3 withoutNegativeZeros(const vec3& p) { return p + vec3(0); }
+
+/// The matrix that turns normals as `matrix` turns surfaces, up to a positive factor: never a division by zero.
+glm::dmat3 normalMatrix(const glm::dmat4& matrix, double determinant) {
+    const dvec3 x(matrix[0]), y(matrix[1]), z(matrix[2]);
+    return (determinant < 0 ? -1.0 : 1.0) * glm::dmat3(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
+}
+
+class CageBuilder {
+public:
+    CageBuilder(const GltfScene& scene, bool takesTexCoords, bool takesNormals)
+        : scene_(scene), takesTexCoords_(takesTexCoords), takesNormals_(takesNormals),
+          worlds_(worldMatrices(scene, restTransforms(scene))) {}
+
+    void addNode(std::uint32_t node) {
+        node_ = node;
+        joints_ = jointMatrices(scene_, node, worlds_);
+        places_.clear(), texCoords_.clear(); // separate objects stay separate where they touch
+        for (const GltfPrimitive& primitive : scene_.meshes[std::size_t(scene_.nodes[node].mesh)].primitives)
+            addPrimitive(primitive);
+    }
+
+    std::size_t degenerateCount = 0;
+    Cage cage;
+
+private:
+    struct Corner {
+        std::uint32_t position = 0, texCoord = 0, normal = 0;
+        bool isMirrored = false;
+    };
+
+    void addPrimitive(const GltfPrimitive& primitive);
+    std::vector<Corner> addVertices(const GltfPrimitive& primitive);
+    Corner addVertex(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix);
+    void addTriangle(std::array<Corner, 3> corners);
+
+    const GltfScene& scene_;
+    bool takesTexCoords_, takesNormals_;
+    std::vector<glm::dmat4> worlds_, joints_;
+    std::uint32_t node_ = 0;
+    std::unordered_map<Key, std::uint32_t, KeyHash> places_, texCoords_; ///< of this node
+};
+
+void CageBuilder::addPrimitive(const GltfPrimitive& primitive) {
+    const std::size_t firstFace = cage.faceCount();
+    const std::vector<Corner> vertices = addVertices(primitive);
+    for (std::size_t i = 0; i + 2 < primitive.triangles.size(); i += 3) {
+        const std::uint32_t* triangle = &primitive.triangles[i];
+        addTriangle({vertices[triangle[0]], vertices[triangle[1]], vertices[triangle[2]]});
+    }
+    if (cage.faceCount() == firstFace) return;
+    const GltfNode& node = scene_.nodes[node_];
+    cage.parts.push_back({.name = node.name.empty() ? scene_.meshes[std::size_t(node.mesh)].name : node.name,
+                          .material = primitive.material,
+                          .firstFace = std::uint32_t(firstFace),
+                          .faceCount = std::uint32_t(cage.faceCount() - firstFace)});
+}
+
+/// Those that triangles use, in the order of the file.
+std::vector<CageBuilder::Corner> CageBuilder::addVertices(const GltfPrimitive& primitive) {
+    const bool isSkinned = scene_.nodes[node_].skin >= 0;
+    std::vector<bool> isUsed(primitive.positions.size(), false);
+    for (const std::uint32_t vertex : primitive.triangles) isUsed[vertex] = true;
+    std::vector<Corner> corners(isUsed.size());
+    for (std::size_t vertex = 0; vertex < isUsed.size(); ++vertex)
+        if (isUsed[vertex])
+            corners[vertex] = addVertex(primitive, vertex, blendedMatrix(primitive, vertex, isSkinned, joints_));
+    return corners;
+}
+
+/// Vertices that differ only in what a seam or a hard edge splits become one position again.
+CageBuilder::Corner CageBuilder::addVertex(const GltfPrimitive& primitive, std::size_t vertex,
+                                           const glm::dmat4& matrix) {
+    const double determinant = glm::determinant(glm::dmat3(matrix));
+    const dvec3 morphed = morphedPosition(primitive, vertex, scene_.nodes[node_].weights);
+    const vec3 p = withoutNegativeZeros(vec3(dvec3(matrix * glm::dvec4(morphed, 1))));
+    const auto [place, isNewPlace] =
+        places_.try_emplace({bitsOf(p.x), bitsOf(p.y), bitsOf(p.z)}, std::uint32_t(cage.positions.size()));
+    if (isNewPlace) cage.positions.push_back(p);
+    Corner corner{.position = place->second, .isMirrored = determinant < 0};
+    if (takesTexCoords_) {
+        const vec2& st = primitive.texCoords[vertex];
+        const auto [texCoord, isNewTexCoord] =
+            texCoords_.try_emplace({corner.position, bitsOf(st.x), bitsOf(st.y)}, std::uint32_t(cage.texCoords.size()));
+        if (isNewTexCoord) cage.texCoords.push_back(st);
+        corner.texCoord = texCoord->second;
+    }
+    if (takesNormals_) {
+        const dvec3 n = normalMatrix(matrix, determinant) * dvec3(primitive.normals[vertex]);
+        corner.normal = std::uint32_t(cage.normals.size());
+        cage.normals.push_back(glm::dot(n, n) > 0 ? vec3(glm::normalize(n)) : vec3(0, 1, 0));
+    }
+    return corner;
+}
+
+void CageBuilder::addTriangle(std::array<Corner, 3> corners) {
+    const auto& [a, b, c] = corners;
+    if (a.position == b.position || b.position == c.position || c.position == a.position) {
+        ++degenerateCount;
+        return;
+    }
+    if (a.isMirrored) std::swap(corners[1], corners[2]); // mirrored, triangles run the other way (section 3.7.4)
+    cage.faceSizes.push_back(3);
+    for (const Corner& corner : corners) {
+        cage.corners.push_back(corner.position);
+        if (takesTexCoords_) cage.texCorners.push_back(corner.texCoord);
+        if (takesNormals_) cage.normalCorners.push_back(corner.normal);
+    }
+}
+
+/// How many of the scene's primitives with triangles have something.
+template <typename Has>
+std::size_t countPrimitives(const GltfScene& scene, const Has& has) {
+    std::size_t count = 0;
+    for (const std::uint32_t node : scene.meshNodes)
+        for (const GltfPrimitive& primitive : scene.meshes[std::size_t(scene.nodes[node].mesh)].primitives)
+            if (!primitive.triangles.empty() && has(primitive)) ++count;
+    return count;
+}
+
+} // namespace
+
+Cage readGltfCage(const std::string& path, const Warn& warn) {
+    const GltfScene scene = readGltf(path, warn);
+    const std::size_t all = countPrimitives(scene, [](const GltfPrimitive&) { return true; });
+    const std::size_t textured = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.texCoords.empty(); });
+    const std::size_t shaded = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.normals.empty(); });
+    if (textured > 0 && textured < all)
+        warn(fmt::format("{}: only some of its meshes have texture coordinates; they are ignored", path));
+
+    CageBuilder builder(scene, all > 0 && textured == all, all > 0 && shaded == all);
+    for (const std::uint32_t node : scene.meshNodes) builder.addNode(node);
+    Cage& cage = builder.cage;
+    if (builder.degenerateCount > 0)
+        warn(fmt::format("{}: {} triangles with two corners at one place are left out", path, builder.degenerateCount));
+    const bool isOneNamelessPart =
+        cage.parts.size() == 1 && cage.parts[0].name.empty() && cage.parts[0].material.empty();
+    if (isOneNamelessPart) cage.parts.clear();
+    validateCage(cage, path);
+    return std::move(cage);
+}
+
+} // namespace relief

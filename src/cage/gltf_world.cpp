@@ -1,0 +1,58 @@
+#include "cage/gltf.h"
+
+namespace relief {
+namespace {
+
+/// T * R * S (section 3.5.2)
+glm::dmat4 matrixOf(const GltfTransform& transform) {
+    glm::dmat4 matrix = glm::mat4_cast(transform.rotation);
+    for (int k = 0; k < 3; ++k) matrix[k] *= transform.scale[k];
+    matrix[3] = glm::dvec4(transform.translation, 1);
+    return matrix;
+}
+
+} // namespace
+
+std::vector<GltfTransform> restTransforms(const GltfScene& scene) {
+    std::vector<GltfTransform> transforms;
+    transforms.reserve(scene.nodes.size());
+    for (const GltfNode& node : scene.nodes) transforms.push_back(node.transform);
+    return transforms;
+}
+
+std::vector<glm::dmat4> worldMatrices(const GltfScene& scene, std::span<const GltfTransform> transforms) {
+    std::vector<glm::dmat4> worlds(scene.nodes.size());
+    for (const std::uint32_t i : scene.order) {
+        const GltfNode& node = scene.nodes[i];
+        const glm::dmat4 local = node.matrix ? *node.matrix : matrixOf(transforms[i]);
+        worlds[i] = node.parent < 0 ? local : worlds[std::size_t(node.parent)] * local;
+    }
+    return worlds;
+}
+
+std::vector<glm::dmat4> jointMatrices(const GltfScene& scene, std::uint32_t node, std::span<const glm::dmat4> worlds) {
+    if (scene.nodes[node].skin < 0) return {worlds[node]};
+    const GltfSkin& skin = scene.skins[std::size_t(scene.nodes[node].skin)];
+    std::vector<glm::dmat4> joints;
+    for (std::size_t i = 0; i < skin.joints.size(); ++i)
+        joints.push_back(worlds[skin.joints[i]] * skin.inverseBinds[i]);
+    return joints;
+}
+
+glm::dmat4 blendedMatrix(const GltfPrimitive& primitive, std::size_t vertex, bool isSkinned,
+                         std::span<const glm::dmat4> joints) {
+    if (!isSkinned) return joints[0];
+    glm::dmat4 sum(0);
+    for (std::size_t i = vertex * primitive.influenceCount; i < (vertex + 1) * primitive.influenceCount; ++i)
+        if (primitive.weights[i] != 0) sum += double(primitive.weights[i]) * joints[primitive.joints[i]];
+    return sum;
+}
+
+dvec3 morphedPosition(const GltfPrimitive& primitive, std::size_t vertex, std::span<const double> weights) {
+    const std::size_t count = primitive.positions.size();
+    dvec3 p(primitive.positions[vertex]);
+    for (std::size_t k = 0; k < weights.size(); ++k) p += weights[k] * dvec3(primitive.offsets[k * count + vertex]);
+    return p;
+}
+
+} // namespace relief

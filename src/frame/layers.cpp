@@ -1,0 +1,56 @@
+// Layers: what a pixel sees besides light.
+#include "frame/renderer_parts.h"
+
+namespace relief {
+
+void Renderer::Parts::layerPass(VkCommandBuffer commands, const Frame& frame) {
+    const VkRenderingAttachmentInfo colors[] = {attachment(layerTargets->normals), attachment(layerTargets->places)};
+    const VkRenderingAttachmentInfo depth = attachment(layerTargets->depths);
+    const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea = {{0, 0}, {width, height}};
+    info.layerCount = 1;
+    info.colorAttachmentCount = 2;
+    info.pColorAttachments = colors;
+    info.pDepthAttachment = &depth;
+    vkCmdBeginRendering(commands, &info);
+    setViewport(commands, width, height);
+    draw(commands, frame, Pass::layers);
+    vkCmdEndRendering(commands);
+    barrier(commands);
+}
+
+void Renderer::Parts::layerValuesPass(VkCommandBuffer commands, const Frame& frame) {
+    const Pipeline& pipeline = pipelineOf(frame, Pass::layerValues);
+    bind(commands, pipeline, frame.set);
+    pushConstants(commands, pipeline, {.passRows = frame.model.isDense() ? 1u : 0u});
+    vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+    barrier(commands);
+}
+
+/// Vertices of a diced mesh belong to several faces, which layers tell apart: there the grid draws the same surface.
+void Renderer::Parts::renderLayers(const Model& model, const RenderOptions& options, Picture& picture) {
+    if (!layerTargets) layerTargets = makeLayerTargets(device, desc);
+    RenderOptions own = options;
+    if (own.path == Path::dice) own.path = Path::grid;
+    own.show = Show::shaded;
+    Frame frame{.model = model, .options = own};
+    describeView(frame);
+    frame.scene.layerTarget = layerTargets->values.address;
+    frame.bindings[kBindDepths].view = layerTargets->depths.view.get();
+    frame.bindings[kBindNormals].view = layerTargets->normals.view.get();
+    frame.bindings[kBindColors].view = layerTargets->places.view.get();
+    FrameStats stats;
+    if (!model.isDense()) makeTriangles(frame, stats);
+    frame.set = bindingSet(frame, Pass::layers);
+    device.run([&](VkCommandBuffer commands) {
+        writeScene(commands, scene, frame.scene);
+        layerPass(commands, frame);
+        layerValuesPass(commands, frame);
+    });
+    const auto* values = static_cast<const float*>(layerTargets->values.mapped);
+    picture.layerValues.assign(values, values + std::size_t(desc.width) * std::size_t(desc.height) * kLayerChannels);
+    picture.layers = options.layers;
+}
+
+} // namespace relief

@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pose/pose.h"
+
+namespace relief {
+namespace {
+
+/// A phantom point 2 a - b beyond a boundary is as far from the middle as three points.
+constexpr float kPhantomSpread = 3;
+
+/// Far::PatchParam's field1: bits 7 to 11 mark boundaries.
+bool hasBoundary(const Patch& patch) { return (patch.param1 >> 7 & 31) != 0; }
+
+/// Collects the cage points that move one face after another, each once.
+class SupportBuilder {
+public:
+    explicit SupportBuilder(const Surface& surface) : surface_(surface), seenBy_(surface.controlPointCount, kNoPatch) {
+        for (std::size_t row = 0; row < surface.stencils.rowCount(); ++row) {
+            float sum = 0;
+            for (std::uint32_t k = surface.stencils.offsets[row]; k < surface.stencils.offsets[row + 1]; ++k)
+                sum += std::abs(surface.stencils.weights[k]);
+            rowSpreads_.push_back(sum);
+        }
+    }
+
+    /// Appends the points of a face; returns its spread.
+    float addFace(std::uint32_t face, std::vector<std::uint32_t>& points) {
+        float spread = 1;
+        for (const TreeLeaf& leaf : leavesOf(surface_.tree, surface_.faces[face].root)) {
+            const Patch& patch = surface_.patches[leaf.patchIndex];
+            const float factor = hasBoundary(patch) ? kPhantomSpread : 1;
+            for (std::uint32_t i = 0; i < patchSize(patch.type); ++i)
+                spread = std::max(spread, factor * addPoint(surface_.patchPoints[patch.firstPoint + i], face, points));
+        }
+        return spread;
+    }
+
+private:
+    float addPoint(std::uint32_t point, std::uint32_t face, std::vector<std::uint32_t>& points) {
+        if (point < surface_.controlPointCount) {
+            add(point, face, points);
+            return 1;
+        }
+        const std::uint32_t row = point - surface_.controlPointCount;
+        for (std::uint32_t k = surface_.stencils.offsets[row]; k < surface_.stencils.offsets[row + 1]; ++k)
+            add(surface_.stencils.indices[k], face, points);
+        return rowSpreads_[row];
+    }
+
+    void add(std::uint32_t point, std::uint32_t face, std::vector<std::uint32_t>& points) {
+        if (std::exchange(seenBy_[point], face) != face) points.push_back(point);
+    }
+
+    const Surface& surface_;
+    std::vector<std::uint32_t> seenBy_; ///< the latest face that has each cage point
+    std::vector<float> rowSpreads_;
+};
+
+} // namespace
+
+FaceSupports::FaceSupports(const Surface& surface) {
+    SupportBuilder builder(surface);
+    firsts_.push_back(0);
+    for (std::uint32_t face = 0; face < surface.faces.size(); ++face) {
+        spreads_.push_back(builder.addFace(face, points_));
+        firsts_.push_back(std::uint32_t(points_.size()));
+    }
+}
+
+/// A point sum_i w_i p_i with sum_i w_i = 1 is at most sum_i |w_i| half boxes away from the middle of the box of all
+/// p_i.
+std::vector<Bounds> FaceSupports::bounds(std::span<const vec3> cagePositions, std::span<const float> reaches) const {
+    std::vector<Bounds> all(spreads_.size());
+    for (std::size_t face = 0; face < all.size(); ++face) {
+        if (firsts_[face] == firsts_[face + 1]) continue;
+        Bounds hull;
+        for (std::uint32_t k = firsts_[face]; k < firsts_[face + 1]; ++k) hull.add(dvec3(cagePositions[points_[k]]));
+        const dvec3 half = 0.5 * (hull.upper - hull.lower) * double(spreads_[face]) + double(reaches[face]);
+        all[face].add(hull.center() - half);
+        all[face].add(hull.center() + half);
+    }
+    return all;
+}
+
+} // namespace relief

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cstring>
+
+#include "pose/stages.h"
+
+namespace relief {
+namespace {
+
+constexpr std::uint32_t kGroup = 64; ///< invocations of pose_mesh.comp
+
+std::vector<vec4> verticesOf(std::span<const vec3> positions, std::span<const vec3> normals) {
+    std::vector<vec4> vertices;
+    vertices.reserve(2 * positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        vertices.emplace_back(positions[i], 0.0f);
+        vertices.emplace_back(normals[i], 0.0f);
+    }
+    return vertices;
+}
+
+} // namespace
+
+struct MeshPoser::Parts {
+    Device& device;
+    const Model& model;
+    PosePush push;
+    TexelBuffer rest, joints, influences, upload;
+    Buffer staging; ///< of vertices that the processor has posed
+    Pipeline pipeline;
+    BindingSet set;
+};
+
+MeshPoser::MeshPoser(Device& device, const Model& model, const DenseMesh& mesh, const Rig& rig)
+    : parts_(new Parts{.device = device, .model = model}) {
+    Parts& p = *parts_;
+    const std::vector<vec4> vertices = verticesOf(mesh.positions, mesh.normals);
+    const auto texels = [&](const char* name, VkFormat format, auto span) {
+        return uploadTexels(device, {.name = name}, format, std::as_bytes(span));
+    };
+    p.rest = texels("mesh at rest", VK_FORMAT_R32G32B32A32_SFLOAT, std::span(vertices));
+    p.joints = texels("mesh joints", VK_FORMAT_R32_UINT, std::span(rig.joints));
+    p.influences = texels("mesh joint weights", VK_FORMAT_R32_SFLOAT, std::span(rig.weights));
+    p.upload = makeTexels(device,
+                          {.name = "mesh pose",
+                           .bytes = std::uint64_t(kFloatsAJoint) * rig.jointCount * sizeof(float),
+                           .memory = MemoryUse::upload},
+                          VK_FORMAT_R32_SFLOAT);
+    p.staging = makeBuffer(device, {.name = "posed mesh",
+                                    .bytes = vertices.size() * sizeof(vec4),
+                                    .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                    .memory = MemoryUse::upload});
+    p.pipeline = makePosePipeline(device, "pose_mesh.comp", {});
+    Binding bindings[kPoseBindCount];
+    for (Binding& binding : bindings) binding.texels = p.rest.view.get(); // every one is bound, read or not
+    bindings[kPoseUpload].texels = p.upload.view.get();
+    bindings[kPoseJoints].texels = p.joints.view.get();
+    bindings[kPoseInfluences].texels = p.influences.view.get();
+    p.set = makeBindingSet(device, p.pipeline, poseLayout(), bindings);
+    p.push.target = model.meshVertices().address;
+    p.push.pointCount = std::uint32_t(mesh.positions.size());
+    p.push.influenceCount = rig.influenceCount;
+}
+
+MeshPoser::~MeshPoser() = default;
+
+void MeshPoser::pose(const Pose& pose) {
+    Parts& p = *parts_;
+    const std::vector<float> floats = rigFloats(pose);
+    std::memcpy(p.upload.buffer.mapped, floats.data(), floats.size() * sizeof(float));
+    p.device.run([&](VkCommandBuffer commands) {
+        bind(commands, p.pipeline, p.set);
+        for (std::uint32_t first = 0; first < p.push.pointCount; first += kGroup * kGroupsAtOnce) {
+            PosePush part = p.push;
+            part.firstPoint = first;
+            push(commands, p.pipeline, std::as_bytes(std::span(&part, 1)));
+            const std::uint32_t groups = (p.push.pointCount - first + kGroup - 1) / kGroup;
+            vkCmdDispatch(commands, std::min(groups, kGroupsAtOnce), 1, 1);
+        }
+        barrier(commands);
+    });
+}
+
+std::uint64_t MeshPoser::upload(std::span<const vec3> positions, std::span<const vec3> normals) {
+    Parts& p = *parts_;
+    const std::vector<vec4> vertices = verticesOf(positions, normals);
+    const std::uint64_t bytes = vertices.size() * sizeof(vec4);
+    std::memcpy(p.staging.mapped, vertices.data(), bytes);
+    p.device.run([&](VkCommandBuffer commands) {
+        const VkBufferCopy region{0, 0, bytes};
+        vkCmdCopyBuffer(commands, p.staging.handle.get(), p.model.meshVertices().handle.get(), 1, &region);
+        barrier(commands);
+    });
+    return bytes;
+}
+
+} // namespace relief

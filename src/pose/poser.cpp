@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "pose/stages.h"
+#include "shared/displacement.h"
+#include "shared/pose.h"
+
+namespace relief {
+namespace {
+
+constexpr std::uint32_t kCageGroup = 64;       ///< invocations of pose_cage.comp
+constexpr std::uint32_t kPointsGroup = 64;     ///< of pose_points.comp, where it loops
+constexpr std::uint32_t kLanes = 8;            ///< of pose_points.comp, where it is straight code
+constexpr std::uint32_t kStraightEntries = 32; ///< blocks of more loop everywhere
+
+void appendFloats(std::vector<float>& floats, std::span<const vec3> points) {
+    for (const vec3& p : points) floats.insert(floats.end(), {p.x, p.y, p.z});
+}
+
+} // namespace
+
+struct Poser::Parts {
+    Parts(Device& device, Model& model, const PoserDesc& desc);
+
+    Device& device;
+    Model& model;
+    FaceSupports supports;
+    std::optional<Rig> rig;
+    float mostStretch = 1;
+    TexelBuffer words, weights, rest, joints, influences;
+    TexelBuffer uploads[2]; ///< taken in turn: one is written while the device may still read the other
+    Pipeline cagePipeline;
+    struct PointsPass {
+        Pipeline pipeline;
+        std::uint32_t firstBlock = 0, endBlock = 0, firstEntry = 0,
+                      entryCount = 0; ///< entryCount 0: any number a block
+    };
+    std::vector<PointsPass> passes;
+    BindingSet sets[2]; ///< with each upload
+    PosePush push;
+    std::uint32_t next = 0;
+    std::vector<std::uint32_t> setFirsts; ///< first point of each set: now, before
+    Bounds bounds;
+    PoseStats stats;
+
+    void uploadStencils(const StencilBlocks& blocks);
+    void uploadRig();
+    void makePasses(const StencilBlocks& blocks);
+    void addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
+                 std::uint32_t endBlock);
+    void runPass(VkCommandBuffer commands, const PointsPass& pass, const BindingSet& set) const;
+    void bindAll(VkBufferView points);
+    void checkPose(const Pose& pose) const;
+    /// What goes to the device: the posed cage, or what moves its rig.
+    [[nodiscard]] std::vector<float> uploadOf(const Pose& pose) const;
+    void evaluate(std::span<const float> floats, std::uint32_t firstPoint, bool isRigged);
+};
+
+Poser::Parts::Parts(Device& device, Model& model, const PoserDesc& desc)
+    : device(device), model(model), supports(*desc.surface) {
+    if (desc.rig != nullptr) rig = *desc.rig;
+    const Surface& surface = *desc.surface;
+    push.pointCount = surface.controlPointCount;
+    const auto setSize = std::uint32_t(surface.controlPointCount + surface.stencils.rowCount());
+    const bool stretches = desc.heightSpace == HeightSpace::stretch;
+    const std::uint32_t setCount = 1 + (desc.keepsBefore ? 1 : 0) + (stretches ? 1 : 0);
+    setFirsts = {0};
+    if (desc.keepsBefore) setFirsts.push_back(setSize);
+
+    PointSets sets;
+    sets.texels = makeTexels(device,
+                             {.name = "posed points",
+                              .bytes = std::uint64_t(setCount) * setSize * sizeof(vec4),
+                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+                             VK_FORMAT_R32G32B32A32_SFLOAT);
+    sets.before = setFirsts.back();
+    if (stretches) sets.rest = (setCount - 1) * setSize;
+    push.target = sets.texels.buffer.address;
+    const StencilBlocks blocks = stencilBlocks(surface.stencils);
+    uploadStencils(blocks);
+    uploadRig();
+    makePasses(blocks);
+    bindAll(sets.texels.view.get());
+    const std::optional<std::uint32_t> firstRest = sets.rest;
+    if (stretches) mostStretch = float(formulas::kMostStretch);
+    model.usePoints(std::move(sets));
+    std::vector<float> restFloats;
+    appendFloats(restFloats, desc.restPositions);
+    if (firstRest) evaluate(restFloats, *firstRest, false);
+}
+
+void Poser::Parts::uploadStencils(const StencilBlocks& blocks) {
+    std::vector<std::uint32_t> all = blocks.firsts;
+    push.firstTarget = std::uint32_t(all.size());
+    all.insert(all.end(), blocks.targets.begin(), blocks.targets.end());
+    push.firstEntry = std::uint32_t(all.size());
+    all.insert(all.end(), blocks.entries.begin(), blocks.entries.end());
+    words = uploadTexels(device, {.name = "stencil words"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(all)));
+    weights = uploadTexels(device, {.name = "stencil weights"}, VK_FORMAT_R32G32B32A32_SFLOAT,
+                           std::as_bytes(std::span(blocks.weights)));
+}
+
+void Poser::Parts::uploadRig() {
+    const Rig none;
+    const Rig& r = rig ? *rig : none;
+    push.influenceCount = r.influenceCount;
+    push.morphCount = r.morphCount;
+    const std::vector<vec4> points = padded(r.rest, r.morphOffsets);
+    rest = uploadTexels(device, {.name = "rest and morphs"}, VK_FORMAT_R32G32B32A32_SFLOAT,
+                        std::as_bytes(std::span(points)));
+    joints = uploadTexels(device, {.name = "joints"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(r.joints)));
+    influences =
+        uploadTexels(device, {.name = "joint weights"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(r.weights)));
+    const std::uint64_t rigFloats = r.morphCount + std::uint64_t(kFloatsAJoint) * r.jointCount;
+    for (TexelBuffer& upload : uploads)
+        upload = makeTexels(device,
+                            {.name = "pose",
+                             .bytes = std::max<std::uint64_t>(3ull * push.pointCount, rigFloats) * sizeof(float),
+                             .memory = MemoryUse::upload},
+                            VK_FORMAT_R32_SFLOAT);
+}
+
+void Poser::Parts::makePasses(const StencilBlocks& blocks) {
+    cagePipeline = makePosePipeline(device, "pose_cage.comp", {});
+    std::uint32_t block = 0;
+    if (device.traits().smallGroup == kLanes)
+        for (const StencilClass& c : blocks.classes) {
+            if (c.entryCount > kStraightEntries) break;
+            block = c.firstBlock + c.blockCount;
+            addPass(c.entryCount, blocks, c.firstBlock, block);
+        }
+    if (block < blocks.blockCount()) addPass(0, blocks, block, std::uint32_t(blocks.blockCount()));
+}
+
+void Poser::Parts::addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
+                           std::uint32_t endBlock) {
+    const std::uint32_t groupSize = entryCount == 0 ? kPointsGroup : kLanes;
+    passes.push_back({makePosePipeline(device, "pose_points.comp", {entryCount, 0, 0, 0, 0, 0, 0, groupSize}),
+                      firstBlock, endBlock, blocks.firsts[firstBlock], entryCount});
+}
+
+void Poser::Parts::bindAll(VkBufferView points) {
+    for (int i = 0; i < 2; ++i) {
+        Binding bindings[kPoseBindCount];
+        bindings[kPoseUpload].texels = uploads[i].view.get();
+        bindings[kPoseRest].texels = rest.view.get();
+        bindings[kPoseJoints].texels = joints.view.get();
+        bindings[kPoseInfluences].texels = influences.view.get();
+        bindings[kPosePoints].texels = points;
+        bindings[kPoseWords].texels = words.view.get();
+        bindings[kPoseWeights].texels = weights.view.get();
+        sets[i] = makeBindingSet(device, cagePipeline, poseLayout(), bindings);
+    }
+}
+
+void Poser::Parts::checkPose(const Pose& pose) const {
+    const auto check = [](std::size_t count, std::size_t expected, const char* what) {
+        if (count != expected) fail(Failure::input, "a pose has {} {}, {} expected", count, what, expected);
+    };
+    if (!rig || !pose.positions.empty()) return check(pose.positions.size(), push.pointCount, "positions");
+    check(pose.joints.size(), rig->jointCount, "joints");
+    check(pose.morphWeights.size(), rig->morphCount, "morph weights");
+}
+
+std::vector<float> Poser::Parts::uploadOf(const Pose& pose) const {
+    if (pose.positions.empty()) return rigFloats(pose);
+    std::vector<float> floats;
+    appendFloats(floats, pose.positions);
+    checkFinite(floats);
+    return floats;
+}
+
+/// All points of the set that begins at `firstPoint`.
+void Poser::Parts::evaluate(std::span<const float> floats, std::uint32_t firstPoint, bool isRigged) {
+    const std::uint32_t upload = std::exchange(next, 1 - next);
+    std::memcpy(uploads[upload].buffer.mapped, floats.data(), floats.size_bytes());
+    push.firstPoint = firstPoint;
+    push.isRigged = isRigged ? 1 : 0;
+    device.run([&](VkCommandBuffer commands) {
+        bind(commands, cagePipeline, sets[upload]);
+        relief::push(commands, cagePipeline, std::as_bytes(std::span(&push, 1)));
+        vkCmdDispatch(commands, (push.pointCount + kCageGroup - 1) / kCageGroup, 1, 1);
+        barrier(commands);
+        for (const PointsPass& pass : passes) runPass(commands, pass, sets[upload]);
+        barrier(commands);
+    });
+    stats.uploadedBytes = floats.size_bytes();
+}
+
+void Poser::Parts::runPass(VkCommandBuffer commands, const PointsPass& pass, const BindingSet& set) const {
+    bind(commands, pass.pipeline, set);
+    const std::uint32_t blocksAGroup = pass.entryCount == 0 ? kPointsGroup / kBlockRows : 1;
+    const std::uint32_t blocksAtOnce = kGroupsAtOnce * blocksAGroup;
+    for (std::uint32_t block = pass.firstBlock; block < pass.endBlock; block += blocksAtOnce) {
+        const std::uint32_t count = std::min(pass.endBlock - block, blocksAtOnce);
+        PosePush part = push;
+        part.firstBlock = block;
+        part.endBlock = block + count;
+        part.firstBlockEntry = pass.firstEntry + (block - pass.firstBlock) * pass.entryCount;
+        relief::push(commands, pass.pipeline, std::as_bytes(std::span(&part, 1)));
+        vkCmdDispatch(commands, (count + blocksAGroup - 1) / blocksAGroup, 1, 1);
+    }
+}
+
+Poser::Poser(Device& device, Model& model, const PoserDesc& desc)
+    : parts_(std::make_unique<Parts>(device, model, desc)) {}
+Poser::~Poser() = default;
+
+void Poser::pose(const Pose& now, const Pose* before) {
+    Parts& parts = *parts_;
+    const auto start = std::chrono::steady_clock::now();
+    const Pose* poses[] = {&now, before};
+    for (std::size_t i = 0; i < parts.setFirsts.size() && poses[i] != nullptr; ++i) {
+        parts.checkPose(*poses[i]);
+        parts.evaluate(parts.uploadOf(*poses[i]), parts.setFirsts[i], parts.rig && poses[i]->positions.empty());
+    }
+    parts.stats.milliseconds =
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+
+    std::vector<float> reaches = parts.model.faceReaches();
+    for (float& reach : reaches) reach *= parts.mostStretch;
+    std::vector<Bounds> boxes = parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), reaches);
+    parts.bounds = {};
+    for (const Bounds& box : boxes) {
+        if (box.isEmpty()) continue;
+        parts.bounds.add(box.lower);
+        parts.bounds.add(box.upper);
+    }
+    parts.model.useFaceBounds(std::move(boxes));
+}
+
+const PoseStats& Poser::stats() const { return parts_->stats; }
+const Bounds& Poser::bounds() const { return parts_->bounds; }
+
+} // namespace relief

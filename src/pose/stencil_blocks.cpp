@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <numeric>
+
+#include "pose/pose.h"
+#include "shared/pose.h"
+
+namespace relief {
+namespace {
+
+std::span<const std::uint32_t> pointsOf(const Stencils& stencils, std::uint32_t row) {
+    return std::span(stencils.indices)
+        .subspan(stencils.offsets[row], stencils.offsets[row + 1] - stencils.offsets[row]);
+}
+
+/// Rows by their cage points, each row's in rising order: neighbours have most of them in common.
+std::vector<std::uint32_t> rowsByPoints(const Stencils& stencils) {
+    std::vector<std::uint32_t> sorted = stencils.indices;
+    std::vector<std::uint32_t> rows(stencils.rowCount());
+    std::iota(rows.begin(), rows.end(), 0u);
+    const auto range = [&](std::uint32_t row) {
+        return std::pair(sorted.begin() + stencils.offsets[row], sorted.begin() + stencils.offsets[row + 1]);
+    };
+    for (const std::uint32_t row : rows) std::sort(range(row).first, range(row).second);
+    std::ranges::stable_sort(rows, [&](std::uint32_t a, std::uint32_t b) {
+        const auto [a0, a1] = range(a);
+        const auto [b0, b1] = range(b);
+        return std::lexicographical_compare(a0, a1, b0, b1);
+    });
+    return rows;
+}
+
+std::uint32_t roundedUp(std::size_t count) {
+    return std::uint32_t((count + kEntriesTogether - 1) / kEntriesTogether * kEntriesTogether);
+}
+
+/// Rows that make a block, and the cage points that they use.
+struct Draft {
+    std::vector<std::uint32_t> rows, points;
+};
+
+/// Splits rows in order into blocks. A row that would need more points than suits the block begins the next one.
+std::vector<Draft> drafts(const Stencils& stencils) {
+    constexpr std::uint32_t kUsualEntries = 24;
+    std::vector<Draft> all;
+    std::vector<std::size_t> latest; ///< the draft that has each cage point
+    const auto isIn = [&](std::uint32_t point) { return latest[point] == all.size(); };
+    latest.resize(1 + (stencils.indices.empty() ? 0 : *std::ranges::max_element(stencils.indices)), 0);
+    for (const std::uint32_t row : rowsByPoints(stencils)) {
+        const std::span<const std::uint32_t> points = pointsOf(stencils, row);
+        if (!all.empty()) {
+            const auto more = std::size_t(std::ranges::count_if(points, [&](std::uint32_t p) { return !isIn(p); }));
+            const std::size_t most = std::max(kUsualEntries, roundedUp(points.size()));
+            if (all.back().rows.size() == kBlockRows || all.back().points.size() + more > most) all.emplace_back();
+        } else {
+            all.emplace_back();
+        }
+        all.back().rows.push_back(row);
+        for (const std::uint32_t point : points)
+            if (!isIn(point)) {
+                latest[point] = all.size();
+                all.back().points.push_back(point);
+            }
+    }
+    return all;
+}
+
+/// `placeOf` holds the place of each of the draft's points.
+void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uint32_t>& placeOf,
+              StencilBlocks& blocks) {
+    const std::size_t first = blocks.entries.size();
+    for (std::size_t i = 0; i < draft.points.size(); ++i) placeOf[draft.points[i]] = std::uint32_t(i);
+    blocks.entries.insert(blocks.entries.end(), draft.points.begin(), draft.points.end());
+    blocks.entries.resize(first + roundedUp(draft.points.size()), draft.points.front());
+    blocks.weights.resize(blocks.entries.size() * kBlockRows, 0.0f);
+    for (std::size_t lane = 0; lane < kBlockRows; ++lane) {
+        blocks.targets.push_back(lane < draft.rows.size() ? draft.rows[lane] : kNoPatch);
+        if (lane >= draft.rows.size()) continue;
+        const std::uint32_t row = draft.rows[lane];
+        for (std::uint32_t k = stencils.offsets[row]; k < stencils.offsets[row + 1]; ++k) {
+            const std::size_t entry = first + placeOf[stencils.indices[k]], vector = entry / 4 * kBlockRows + lane;
+            blocks.weights[4 * vector + entry % 4] = stencils.weights[k];
+        }
+    }
+    blocks.firsts.push_back(std::uint32_t(blocks.entries.size()));
+}
+
+} // namespace
+
+StencilBlocks stencilBlocks(const Stencils& stencils) {
+    StencilBlocks blocks;
+    blocks.firsts.push_back(0);
+    std::vector<Draft> all = drafts(stencils);
+    std::ranges::stable_sort(all, {}, [](const Draft& draft) { return roundedUp(draft.points.size()); });
+    std::vector<std::uint32_t> placeOf;
+    placeOf.resize(1 + (stencils.indices.empty() ? 0 : *std::ranges::max_element(stencils.indices)));
+    for (const Draft& draft : all) {
+        const std::uint32_t entryCount = roundedUp(draft.points.size());
+        if (blocks.classes.empty() || blocks.classes.back().entryCount != entryCount)
+            blocks.classes.push_back({entryCount, std::uint32_t(blocks.blockCount()), 0});
+        ++blocks.classes.back().blockCount;
+        addBlock(stencils, draft, placeOf, blocks);
+    }
+    return blocks;
+}
+
+} // namespace relief

@@ -1,0 +1,389 @@
+// Every glTF file that is wrong is refused with one line that says where.
+#include <cmath>
+#include <random>
+
+#include "gltf.h"
+#include "meshes.h"
+
+namespace relief::test {
+namespace {
+
+GltfFile triangle() {
+    GltfFile file;
+    file.addMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
+    file.addNode({{"mesh", 0}});
+    return file;
+}
+
+/// A triangle with one of everything that a cage is made of.
+GltfFile rich() {
+    GltfFile file = triangle();
+    const int normals = file.add(std::vector<vec3>(3, vec3(0, 0, 1)));
+    const int texCoords = file.add(std::vector<vec2>{{0, 0}, {1, 0}, {0, 1}});
+    const int joints = file.add(std::vector<std::uint8_t>(12, 0), "VEC4", kUnsignedByte);
+    const int weights = file.add(std::vector<vec4>(3, vec4(1, 0, 0, 0)));
+    const int offsets = file.add(std::vector<vec3>(3, vec3(0, 0, 1)));
+    Json& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["attributes"].update(
+        {{"NORMAL", normals}, {"TEXCOORD_0", texCoords}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}});
+    primitive["targets"] = {{{"POSITION", offsets}}};
+    file.json["nodes"][0]["skin"] = 0;
+    file.addNode({{"name", "bone"}, {"translation", {0, 0, 1}}});
+    file.json["skins"] = {{{"joints", {1}}, {"inverseBindMatrices", file.add(std::vector<mat4>{mat4(1)})}}};
+    file.addChannel(1, "rotation", file.add(std::vector<float>{0, 1}),
+                    file.add(std::vector<vec4>{{0, 0, 0, 1}, {0, 0, 1, 0}}));
+    return file;
+}
+
+void expectRefusedBytes(const std::string& bytes, std::vector<std::string> words, const std::string& name = "a.gltf") {
+    const TemporaryFolder folder;
+    putFile(folder / name, bytes);
+    words.push_back(folder / name);
+    expectFailure(Failure::input, words, [&] { readCage(folder / name, [](const std::string&) {}); });
+}
+
+/// A good file, spoiled.
+template <typename Spoil>
+void expectRefused(const Spoil& spoil, const std::vector<std::string>& words) {
+    GltfFile file = rich();
+    spoil(file);
+    SCOPED_TRACE(words[0]);
+    expectRefusedBytes(file.gltf(), words);
+}
+
+/// The accessor that an attribute of the mesh names.
+Json& accessorOf(GltfFile& file, const std::string& attribute) {
+    return file.json["accessors"][file.attributes()[attribute].get<std::size_t>()];
+}
+
+/// Puts other bytes at the front of an attribute's view.
+template <typename Value>
+void overwrite(GltfFile& file, const Json& accessor, std::size_t index, const Value& value) {
+    const Json& view = file.json["bufferViews"][accessor["bufferView"].get<std::size_t>()];
+    std::memcpy(&file.bytes[view["byteOffset"].get<std::size_t>() + index * sizeof(Value)], &value, sizeof(Value));
+}
+
+TEST(GltfErrors, theGoodFileIsGood) {
+    const TemporaryFolder folder;
+    putFile(folder / "a.gltf", rich().gltf());
+    EXPECT_EQ(readCage(folder / "a.gltf").faceCount(), 1u);
+}
+
+TEST(GltfErrors, whatIsNoJson) {
+    for (const std::string text : {"", " ", "{", "[]", "7", "{}", "{\"asset\": 1}", "solid cube", "\xff\xfe{}", "nul"})
+        expectRefusedBytes(text, {});
+    expectRefusedBytes("{\"asset\": {\"version\": \"2.0\"},}", {"no valid JSON", "line 1"});
+    expectRefusedBytes("{\"asset\": {\"version\": \"1.0\"}}", {"version 1.0"});
+    expectRefusedBytes("{\"asset\": {\"version\": \"2.0\"}}", {"no mesh"});
+    expectRefusedBytes("{\"asset\": {\"version\": \"2.0\"}, \"extras\": 1e999}", {"no valid JSON"});
+    std::string deep = R"({"asset": {"version": "2.0"}, "extras": )";
+    deep += std::string(100'000, '[') + std::string(100'000, ']') + "}";
+    expectRefusedBytes(deep, {"brackets"});
+}
+
+TEST(GltfErrors, membersOfWrongTypes) {
+    expectRefused([](GltfFile& f) { f.json["meshes"] = Json::object(); }, {"meshes must be a list"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = "0"; }, {"nodes/0/mesh must be a whole number"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = -1; }, {"nodes/0/mesh must be a whole number"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["skin"] = 1ull << 32; }, {"nodes/0/skin"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {0.5}; }, {"nodes/0/children"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][1]["translation"] = {1, "2", 3}; }, {"nodes/1/translation"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][1]["scale"] = 2; }, {"nodes/1/scale"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 2.5; }, {"accessors/0/count"});
+    expectRefused([](GltfFile& f) { f.attributes()["POSITION"] = nullptr; }, {"primitives/0/attributes/POSITION"});
+    expectRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = "a"; },
+                  {"primitives/0/targets/0/POSITION"});
+    expectRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0]["indices"] = true; },
+                  {"primitives/0/indices"});
+    expectRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {"a"}; }, {"scenes/0/nodes"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"] = 3; }, {"animations/0"});
+}
+
+TEST(GltfErrors, membersThatAreMissing) {
+    expectRefused([](GltfFile& f) { f.json.erase("asset"); }, {"no asset"});
+    expectRefused([](GltfFile& f) { f.json["meshes"][0].erase("primitives"); }, {"meshes/0: has no primitives"});
+    expectRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0].erase("attributes"); }, {"no attributes"});
+    expectRefused([](GltfFile& f) { f.attributes().erase("POSITION"); }, {"meshes/0/primitives/0", "no POSITION"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0].erase("type"); }, {"accessors/0 has no type"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0].erase("bufferView"); }, {"POSITION", "no buffer view"});
+    expectRefused([](GltfFile& f) { f.json["skins"][0].erase("joints"); }, {"skins/0 has no joints"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0].erase("input"); },
+                  {"samplers/0 has no input"});
+    expectRefused([](GltfFile& f) { f.attributes().erase("JOINTS_0"); }, {"only one of JOINTS_0 and WEIGHTS_0"});
+    expectRefused([](GltfFile& f) { f.attributes().erase("JOINTS_0"), f.attributes().erase("WEIGHTS_0"); },
+                  {"no JOINTS_0", "node 0"});
+    expectRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {1}; }, {"no mesh"});
+}
+
+TEST(GltfErrors, whatDoesNotExist) {
+    expectRefused([](GltfFile& f) { f.attributes()["POSITION"] = 99; }, {"POSITION", "accessor 99", "there are"});
+    expectRefused([](GltfFile& f) { f.attributes()["NORMAL"] = 99; }, {"NORMAL", "accessor 99"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["bufferView"] = 99; }, {"POSITION", "buffer view 99"});
+    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 1; }, {"POSITION", "buffer 1"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = 1; }, {"nodes/0", "mesh 1", "there are 1"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["skin"] = 1; }, {"nodes/0", "skin 1"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {2}; }, {"nodes/0", "child 2"});
+    expectRefused([](GltfFile& f) { f.json["skins"][0]["joints"] = {2}; }, {"skins/0", "node 2"});
+    expectRefused([](GltfFile& f) { f.json["scene"] = 1; }, {"scene 1"});
+    expectRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {0, 7}; }, {"scenes/0", "node 7"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["sampler"] = 1; },
+                  {"animations/0", "sampler 1"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"]["node"] = 2; }, {"node 2"});
+    expectRefused(
+        [](GltfFile& f) {
+            overwrite(f, accessorOf(f, "JOINTS_0"), 5, std::uint8_t(1)), //
+                overwrite(f, accessorOf(f, "WEIGHTS_0"), 5, 1.0f);
+        },
+        {"vertex 1 names joint 1", "skin 0 has 1"});
+    expectRefused([](GltfFile& f) { overwrite(f, f.json["accessors"][1], 2, 3u); },
+                  {"indices", "vertex 3", "there are 3"});
+}
+
+TEST(GltfErrors, arraysThatLeaveTheirBytes) {
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 4; }, {"POSITION", "end at byte 48", "has 36"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 2147483647; }, {"POSITION", "2147483647"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }, {"POSITION", "end at byte 40"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4294967295u; }, {"POSITION"});
+    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 16; }, {"POSITION", "end at byte 44"});
+    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 8; }, {"12 bytes every 8 bytes"});
+    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 4294967295u; }, {"buffer view 0 ends"});
+    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 4294967295u; }, {"buffer view 0 ends"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 0; }, {"POSITION", "no elements"});
+}
+
+TEST(GltfErrors, arraysOfOtherTypes) {
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC4"; }, {"POSITION", "of VEC4, VEC3 expected"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC5"; }, {"VEC5"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = int(kShort); },
+                  {"POSITION", "type 5122"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 5130; }, {"POSITION", "type 5130"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 5124; }, {"POSITION", "type 5124"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 3; }, {"componentType"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][1]["componentType"] = int(kFloat); }, {"indices", "type 5126"});
+    expectRefused([](GltfFile& f) { accessorOf(f, "JOINTS_0")["componentType"] = int(kByte); }, {"JOINTS_0", "5120"});
+    expectRefused([](GltfFile& f) { accessorOf(f, "WEIGHTS_0")["componentType"] = int(kUnsignedByte); },
+                  {"WEIGHTS_0", "plain"}); // bytes, but not normalized
+    expectRefused([](GltfFile& f) { f.json["skins"][0]["inverseBindMatrices"] = 0; }, {"skins/0", "MAT4"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["output"] = 0; }, {"output", "VEC4"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["interpolation"] = "SMOOTH"; },
+                  {"LINEAR, STEP"});
+}
+
+TEST(GltfErrors, countsThatDiffer) {
+    for (const std::string attribute : {"NORMAL", "TEXCOORD_0", "JOINTS_0", "WEIGHTS_0"})
+        expectRefused([&](GltfFile& f) { accessorOf(f, attribute)["count"] = 2; },
+                      {attribute, "2 elements, 3 expected"});
+    expectRefused(
+        [](GltfFile& f) {
+            f.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = f.add(std::vector<vec3>(2));
+        },
+        {"targets/0/POSITION", "2 elements, 3 expected"});
+    expectRefused([](GltfFile& f) { f.json["meshes"][0]["weights"] = {1, 2}; }, {"2 weights for 1 morph targets"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["weights"] = {1, 2}; }, {"nodes/0", "weights of 2"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][1]["translation"] = {1, 2}; }, {"nodes/1", "translation of 2"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][1]["matrix"] = {1, 2}; }, {"nodes/1", "matrix of 2"});
+    expectRefused([](GltfFile& f) { f.json["skins"][0]["joints"] = {1, 1}; }, {"1 matrices for 2 joints"});
+    expectRefused([](GltfFile& f) { f.json["accessors"][1]["count"] = 2; }, {"2 corners"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["interpolation"] = "CUBICSPLINE"; },
+                  {"output", "2 elements, 6 expected"});
+    expectRefused(
+        [](GltfFile& f) {
+            Json second = f.json["meshes"][0]["primitives"][0];
+            second.erase("targets");
+            f.json["meshes"][0]["primitives"].push_back(second);
+        },
+        {"primitives/1: 0 morph targets; the first primitive has 1"});
+}
+
+TEST(GltfErrors, numbersThatAreNotFinite) {
+    for (const std::string attribute : {"POSITION", "NORMAL", "TEXCOORD_0", "WEIGHTS_0"})
+        for (const float number : {float(NAN), float(INFINITY)})
+            expectRefused([&](GltfFile& f) { overwrite(f, accessorOf(f, attribute), 5, number); },
+                          {attribute, "not finite"});
+    expectRefused([](GltfFile& f) { overwrite(f, accessorOf(f, "WEIGHTS_0"), 5, -1.0f); }, {"WEIGHTS_0", "weight -1"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][1]["rotation"] = {0, 0, 0, 0}; }, {"nodes/1", "rotation"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][1]["matrix"] = std::vector<int>(16, 1); }, {"nodes/1", "last row"});
+    // Finite, but what they make is not.
+    expectRefused([](GltfFile& f) { f.json["nodes"][1]["scale"] = {1e200, 1e200, 1e200}; }, {"vertex", "not finite"});
+}
+
+TEST(GltfErrors, keysThatDoNotRise) {
+    expectRefused(
+        [](GltfFile& f) {
+            f.json["animations"][0]["samplers"][0]["input"] = f.add(std::vector<float>{1, 1});
+        },
+        {"key 1 is at 1 s", "must rise"});
+    expectRefused(
+        [](GltfFile& f) {
+            f.json["animations"][0]["samplers"][0]["input"] = f.add(std::vector<float>{1, NAN});
+        },
+        {"input", "not finite"});
+    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["output"] = f.add(std::vector<vec4>(2)); },
+                  {"rotation of key 0"});
+    expectRefused(
+        [](GltfFile& f) {
+            Json& channels = f.json["animations"][0]["channels"];
+            channels.push_back(Json(channels[0]));
+        },
+        {"rotation of node 1 twice"});
+    expectRefused(
+        [](GltfFile& f) {
+            f.json["nodes"][1] = {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}};
+        },
+        {"node 1", "has a matrix"});
+}
+
+TEST(GltfErrors, treesThatAreNone) {
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {0}; }, {"nodes/0: is below itself"});
+    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {1}, f.json["nodes"][1]["children"] = {0}; },
+                  {"nodes/0: is below itself"});
+    expectRefused(
+        [](GltfFile& f) {
+            f.json["nodes"][0]["children"] = {1, 1};
+        },
+        {"nodes/1: is a child of nodes 0 and 0"});
+}
+
+TEST(GltfErrors, sparseArraysThatDoNotFit) {
+    const auto spoil = [](const char* what, const Json& value) {
+        return [=](GltfFile& f) {
+            Json& sparse = f.json["accessors"][0]["sparse"];
+            sparse = {
+                {"count", 1},
+                {"indices",
+                 {{"bufferView", f.addView(std::vector<std::uint16_t>{1, 3})}, {"componentType", int(kUnsignedShort)}}},
+                {"values", {{"bufferView", f.addView(std::vector<vec3>{{7, 8, 9}})}}}};
+            sparse[Json::json_pointer(what)] = value;
+        };
+    };
+    expectRefused(spoil("/count", 0), {"POSITION", "0 sparse elements"});
+    expectRefused(spoil("/count", 4), {"POSITION", "4 sparse elements of 3"});
+    expectRefused(spoil("/count", 2), {"POSITION", "2 elements end at byte 24"});
+    expectRefused(spoil("/indices/byteOffset", 2), {"POSITION", "sparse element 3"});
+    expectRefused(spoil("/indices/byteOffset", 4294967295u), {"POSITION"});
+    expectRefused(spoil("/values/byteOffset", 4), {"POSITION", "end at byte 16"});
+    expectRefused(spoil("/indices/componentType", int(kShort)), {"POSITION", "5122"});
+    expectRefused(spoil("/indices/bufferView", 99), {"POSITION", "buffer view 99"});
+    expectRefused(spoil("/values", Json::object()), {"bufferView"});
+}
+
+TEST(GltfErrors, extensionsWithoutWhichNothingIsThere) {
+    expectRefused([](GltfFile& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
+                  {"KHR_draco_mesh_compression", "export it without"});
+}
+
+/// Few bytes that would unfold to hundreds of gigabytes.
+TEST(GltfErrors, filesThatUnfold) {
+    GltfFile file;
+    std::vector<vec3> positions(10'000, vec3(1));
+    file.addMesh(positions, {0, 1, 2});
+    file.addNode({{"mesh", 0}});
+    file.json["accessors"].push_back({{"componentType", int(kFloat)}, {"count", 10'000}, {"type", "VEC3"}});
+    Json targets = Json::array();
+    for (int i = 0; i < 20'000; ++i) targets.push_back({{"POSITION", 2}});
+    file.json["meshes"][0]["primitives"][0]["targets"] = targets;
+    expectRefusedBytes(file.gltf(), {"targets", "unfolds"});
+    file.json["meshes"][0]["primitives"][0].erase("targets");
+    for (int i = 0; i < 20'000; ++i) file.addNode({{"mesh", 0}});
+    expectRefusedBytes(file.gltf(), {"vertices and corners"});
+}
+
+// --- buffers -----------------------------------------------------------------------------------------------------
+
+void expectUriRefused(Failure failure, const Json& uri, const std::vector<std::string>& words) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path / "scene");
+    const GltfFile file = triangle();
+    putFile(folder / "secret.bin", file.bytes);
+    Json json = file.json;
+    json["buffers"][0] = {{"byteLength", file.bytes.size()}};
+    if (!uri.is_null()) json["buffers"][0]["uri"] = uri;
+    putFile(folder / "scene/a.gltf", json.dump());
+    std::vector<std::string> all = words;
+    all.push_back(folder / "scene/a.gltf");
+    expectFailure(failure, all, [&] { readCage(folder / "scene/a.gltf"); });
+}
+
+TEST(GltfErrors, buffersElsewhere) {
+    for (const std::string uri :
+         {"../secret.bin", "%2e%2e/secret.bin", "a/../../secret.bin", "./.././secret.bin", "..", ""})
+        expectUriRefused(Failure::input, uri, {"own folder"});
+    for (const std::string uri : {"/etc/hostname", "http://127.0.0.1/a.bin", "none.bin", "file:///etc/hostname"})
+        expectUriRefused(Failure::file, uri, {"is not there"});
+    expectUriRefused(Failure::input, nullptr, {"buffers/0 has no uri"});
+}
+
+TEST(GltfErrors, buffersOfAnotherLength) {
+    const std::string header = "data:application/octet-stream;base64,", bytes = triangle().bytes;
+    expectUriRefused(Failure::input, header + base64(bytes + "1234"), {"no valid glTF"});
+    expectUriRefused(Failure::input, header + base64(bytes.substr(4)), {"no valid glTF"});
+    expectUriRefused(Failure::input, header + "////%%%%", {"no valid glTF"});
+    expectUriRefused(Failure::file, "data:,", {"data:,"});
+    const TemporaryFolder folder;
+    Json json = triangle().json;
+    json["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", "a.bin"}};
+    putFile(folder / "a.gltf", json.dump());
+    putFile(folder / "a.bin", bytes.substr(1));
+    expectFailure(Failure::input, {"a.bin"}, [&] { readCage(folder / "a.gltf"); });
+    putFile(folder / "a.bin", bytes + "x"); // nothing longer than what is announced is read
+    expectFailure(Failure::input, {"a.bin", "longer"}, [&] { readCage(folder / "a.gltf"); });
+    expectFailure(Failure::file, {folder / "b.gltf"}, [&] { readCage(folder / "b.gltf"); });
+}
+
+// --- broken bytes ------------------------------------------------------------------------------------------------
+
+/// Reads, or fails with one line: what it is worth to know is that nothing else happens.
+bool isRead(const std::string& path) {
+    try {
+        readCage(path, [](const std::string&) {});
+        return true;
+    } catch (const Error& error) {
+        EXPECT_TRUE(error.failure == Failure::input || error.failure == Failure::file) << error.what();
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        return false;
+    }
+}
+
+TEST(GltfErrors, binaryFilesThatAreCutOff) {
+    const TemporaryFolder folder;
+    const std::string file = rich().glb();
+    for (std::size_t length = 0; length < file.size(); length += 16) {
+        putFile(folder / "a.glb", file.substr(0, length));
+        EXPECT_FALSE(isRead(folder / "a.glb")) << length;
+    }
+    putFile(folder / "a.glb", file + "more");
+    EXPECT_TRUE(isRead(folder / "a.glb"));
+}
+
+TEST(GltfErrors, binaryFilesWithOtherHeaders) {
+    const TemporaryFolder folder;
+    const std::string file = rich().glb();
+    const std::uint32_t jsonLength = *reinterpret_cast<const std::uint32_t*>(&file[12]);
+    for (const std::size_t offset : {std::size_t(0), std::size_t(4), std::size_t(8), std::size_t(12), std::size_t(16),
+                                     20 + std::size_t(jsonLength), 24 + std::size_t(jsonLength)})
+        for (const std::uint32_t number : {0u, 1u, 19u, 20u, 0x7fffffffu, 0x80000000u, 0xfffffffcu, 0xffffffffu}) {
+            std::string spoiled = file;
+            std::memcpy(&spoiled[offset], &number, 4);
+            putFile(folder / "a.glb", spoiled);
+            EXPECT_FALSE(isRead(folder / "a.glb")) << offset << " " << number;
+        }
+}
+
+TEST(GltfErrors, binaryFilesWithOtherLetters) {
+    const TemporaryFolder folder;
+    const std::string file = rich().glb();
+    std::mt19937 random(7);
+    std::size_t refused = 0;
+    for (std::size_t i = 0; i < 300; ++i) {
+        std::string spoiled = file;
+        constexpr std::string_view kLetters = "0123456789-.eE\"{}[]:,\\ntfu\x01\xff ";
+        for (std::size_t flips = 0; flips <= i % 3; ++flips)
+            spoiled[20 + random() % (file.size() - 20)] = kLetters[random() % kLetters.size()];
+        putFile(folder / "a.glb", spoiled);
+        refused += isRead(folder / "a.glb") ? 0 : 1;
+    }
+    EXPECT_GT(refused, 100u);
+}
+
+} // namespace
+} // namespace relief::test
