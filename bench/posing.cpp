@@ -15,7 +15,7 @@ namespace {
 
 namespace Osd = OpenSubdiv::Osd;
 
-constexpr int kRounds = 15;
+constexpr int kPosingRounds = 15;
 
 /// The same stencils as OpenSubdiv's evaluators take them.
 struct OsdStencils {
@@ -60,7 +60,7 @@ void benchCage(Device& device, const std::string& name, const Cage& cage, int is
     const Pose pose{.positions = cage.positions, .joints = {}, .morphWeights = {}};
     OsdStencils osd(surface.stencils, cage.positions);
     std::vector<double> ours, cpu, omp;
-    for (int round = 0; round <= kRounds; ++round) {
+    for (int round = 0; round <= kPosingRounds; ++round) {
         poser.pose(pose);
         const double one = osd.time<Osd::CpuEvaluator>(), all = osd.time<Osd::OmpEvaluator>();
         if (round == 0) continue;

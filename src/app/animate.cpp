@@ -100,7 +100,7 @@ void holdCamera(CameraArgs& camera, std::span<const dvec3> points, bool isTurn) 
 // --- frames --------------------------------------------------------------------------------------------------------
 
 /// A finished picture and what it took.
-struct Drawn {
+struct DrawnFrame {
     int frame = 0;
     Picture picture;
     std::uint64_t uploadedBytes = 0;
@@ -114,7 +114,7 @@ public:
 
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
     [[nodiscard]] const Device& device() const { return *device_; }
-    Drawn draw(int frame);
+    DrawnFrame draw(int frame);
 
 private:
     [[nodiscard]] RenderOptions optionsAt(int frame) const;
@@ -182,8 +182,8 @@ RenderOptions FrameMaker::optionsAt(int frame) const {
     return options;
 }
 
-Drawn FrameMaker::draw(int frame) {
-    Drawn drawn{.frame = frame};
+DrawnFrame FrameMaker::draw(int frame) {
+    DrawnFrame drawn{.frame = frame};
     if (poser_) {
         std::optional<Pose> before;
         if (wantsMotion(picture_)) before = poseAt(frame - 1);
@@ -203,7 +203,7 @@ struct Report {
     double seconds = 0;
     std::size_t skippedCount = 0;
 
-    void add(const Drawn& drawn) {
+    void add(const DrawnFrame& drawn) {
         const FrameStats& stats = drawn.picture.stats;
         uploadedBytes = drawn.uploadedBytes;
         frames.push_back({{"frame", drawn.frame},
@@ -218,11 +218,11 @@ struct Report {
 /// Draws the frames one after another while the last one is being written: `write` runs beside, one at a time, in
 /// order.
 void drawAll(FrameMaker& maker, std::span<const int> frames, const AnimateArgs& args, Report& report,
-             const std::function<void(const Drawn&)>& write) {
+             const std::function<void(const DrawnFrame&)>& write) {
     Progress progress("animating", frames.size(), args.output.progress, "frames");
     std::future<void> writing;
     for (const int frame : frames) {
-        auto drawn = std::make_shared<Drawn>(maker.draw(frame));
+        auto drawn = std::make_shared<DrawnFrame>(maker.draw(frame));
         checkValidation(maker.device());
         if (writing.valid()) writing.get();
         report.add(*drawn);
@@ -238,7 +238,7 @@ void writeClip(FrameMaker& maker, const AnimateArgs& args, Report& report) {
         Finish finish = finishOf(args.picture);
         if (finish.background == Background::transparent) finish.background = Background::studio; // clips have no alpha
         drawAll(maker, maker.frames(), args, report,
-                [&](const Drawn& drawn) { clip.write(displayed(drawn.picture, finish)); });
+                [&](const DrawnFrame& drawn) { clip.write(displayed(drawn.picture, finish)); });
         clip.finish();
     });
 }
@@ -250,7 +250,7 @@ void writePictures(FrameMaker& maker, const AnimateArgs& args, Report& report) {
             std::erase_if(frames, [&](int frame) { return std::filesystem::exists(frameName(args.target, frame)); });
     const Finish finish = finishOf(args.picture);
     drawAll(maker, frames, args, report,
-            [&](const Drawn& drawn) { writePicture(frameName(args.target, drawn.frame), drawn.picture, finish); });
+            [&](const DrawnFrame& drawn) { writePicture(frameName(args.target, drawn.frame), drawn.picture, finish); });
 }
 
 /// The posed cage itself: no device is needed.

@@ -6,6 +6,13 @@
 #include "bake/closest.h"
 
 namespace relief {
+/// Points spread over a surface.
+struct Samples {
+    std::vector<dvec3> places;
+    std::vector<double> weights; ///< area that each stands for
+    double coverage = 0;
+};
+
 namespace {
 
 /// Part i of a triangle that is cut into n * n, by corner weights: rows from the third corner's side, upright triangles
@@ -37,12 +44,6 @@ double sequenceShare(std::size_t index) {
     const double x = (double(index) + 0.5) * kGolden;
     return x - std::floor(x);
 }
-
-struct Samples {
-    std::vector<dvec3> places;
-    std::vector<double> weights; ///< area that each stands for
-    double coverage = 0;
-};
 
 class Sampler {
 public:

@@ -8,7 +8,7 @@ namespace relief {
 
 namespace {
 
-using Json = nlohmann::ordered_json; // readers expect "asset" first, people too
+using OrderedJson = nlohmann::ordered_json; // readers expect "asset" first, people too
 
 // Numbers of the specification: component types and buffer targets are OpenGL's.
 constexpr int kFloat = 5126, kUnsignedInt = 5125;
@@ -23,10 +23,10 @@ vec3 unitNormal(const vec3& normal) {
 
 /// The arrays of the chunk of bytes, one after the other. All hold 4-byte values, so all begin at multiples of 4.
 struct Arrays {
-    Json views = Json::array(), accessors = Json::array();
+    OrderedJson views = OrderedJson::array(), accessors = OrderedJson::array();
     std::uint64_t byteCount = 0;
 
-    void add(int target, std::uint64_t bytes, Json accessor) {
+    void add(int target, std::uint64_t bytes, OrderedJson accessor) {
         accessor["bufferView"] = views.size();
         accessors.push_back(std::move(accessor));
         views.push_back({{"buffer", 0}, {"byteOffset", byteCount}, {"byteLength", bytes}, {"target", target}});
@@ -34,14 +34,14 @@ struct Arrays {
     }
 };
 
-Json accessorOf(const char* type, int componentType, std::uint64_t count) {
+OrderedJson accessorOf(const char* type, int componentType, std::uint64_t count) {
     return {{"type", type}, {"componentType", componentType}, {"count", count}};
 }
 
-Json positionAccessor(const DenseMesh& mesh) {
+OrderedJson positionAccessor(const DenseMesh& mesh) {
     Bounds bounds;
     for (const vec3& p : mesh.positions) bounds.add(dvec3(p));
-    Json accessor = accessorOf("VEC3", kFloat, mesh.positions.size());
+    OrderedJson accessor = accessorOf("VEC3", kFloat, mesh.positions.size());
     accessor["min"] = {bounds.lower.x, bounds.lower.y, bounds.lower.z};
     accessor["max"] = {bounds.upper.x, bounds.upper.y, bounds.upper.z};
     return accessor;
@@ -70,7 +70,7 @@ constexpr const char* kScene = R"({
 
 /// The JSON chunk, filled up with spaces to a multiple of 4.
 std::string describe(const DenseMesh& mesh, const Arrays& arrays) {
-    Json gltf = Json::parse(kScene);
+    OrderedJson gltf = OrderedJson::parse(kScene);
     if (!mesh.texCoords.empty()) gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 3;
     gltf["accessors"] = arrays.accessors;
     gltf["bufferViews"] = arrays.views;

@@ -3,6 +3,7 @@
 
 #include "measure/goals.h"
 #include "measure/page.h"
+#include "measure/parts.h"
 
 namespace relief {
 namespace {
@@ -100,7 +101,6 @@ std::string equalErrorFigure(std::span<const Row* const> rows, const char* title
                      .aboveRule = "displacement saves"});
 }
 
-constexpr const char* kDense = "dense mesh, raw";
 
 } // namespace
 

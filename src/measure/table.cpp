@@ -5,7 +5,7 @@
 namespace relief {
 namespace {
 
-std::string cellOf(const Value& value) {
+std::string wordsOf(const Value& value) {
     const Spread spread = spreadOf(value.samples);
     if (value.unit == "bytes") return humanBytes(std::uint64_t(spread.median));
     if (value.unit == "ms")
@@ -53,7 +53,7 @@ std::string tableOfRows(std::span<const Row> rows) {
     for (const Row& row : rows) {
         std::vector<std::string> line{row.axis.empty() ? "" : fmt::format("{:g}", row.at), row.contestant};
         for (const std::string& name : columns)
-            line.push_back(row.find(name) != nullptr ? cellOf(*row.find(name)) : "");
+            line.push_back(row.find(name) != nullptr ? wordsOf(*row.find(name)) : "");
         lines.push_back(line);
     }
     return aligned(lines);

@@ -236,41 +236,41 @@ TEST(Deformers, haveTheRangeOfTheBaseAndFourSecondsWhereTheyMove) {
 
 // --- errors --------------------------------------------------------------------------------------------------------
 
-void expectRefused(const std::string& expression, int column, std::vector<std::string> words) {
+void expectWordsRefused(const std::string& expression, int column, std::vector<std::string> words) {
     words.push_back(fmt::format("deformers: column {}: ", column));
     expectFailure(Failure::usage, words, [&] { deform(stillPose(cube()), cube(), expression); });
 }
 
 TEST(DeformerErrors, sayWhatWasFoundAndWhatExpected) {
     const std::string names = "twist, bend, wave, squash, taper, translate, rotate, scale";
-    expectRefused("", 1, {"found the end", "a deformer: " + names});
-    expectRefused("  ", 3, {"found the end"});
-    expectRefused("(", 1, {"found '('", names});
-    expectRefused("twits(angle=3)", 1, {"'twits'", names, "did you mean 'twist'?"});
-    expectRefused("melt()", 1, {"'melt'", names});
-    expectRefused("twist", 6, {"found the end", "'(' after twist"});
-    expectRefused("twist angle", 7, {"found 'angle'", "'(' after twist"});
-    expectRefused("twist(", 7, {"found the end", "a value of twist: axis, angle"});
-    expectRefused("twist(90)", 7, {"found '90'", "axis, angle"});
-    expectRefused("twist(angel=90)", 7, {"'angel'", "value of twist: axis, angle", "did you mean 'angle'?"});
-    expectRefused("twist(angle 90)", 13, {"found '90'", "'=' after angle"});
-    expectRefused("twist(angle=)", 13, {"found ')'", "a number, t, pi"});
-    expectRefused("twist(angle=90", 15, {"found the end", "an operator, ',' or ')'"});
-    expectRefused("twist(angle=90 axis=y)", 16, {"found 'axis'", "an operator, ',' or ')'"});
-    expectRefused("twist(axis=y angle=90)", 14, {"found 'angle'", "',' or ')'"});
-    expectRefused("twist(,)", 7, {"found ','", "axis, angle"});
-    expectRefused("twist() , bend()", 9, {"found ','", "a deformer"});
-    expectRefused("twist()) ", 8, {"found ')'", "a deformer"});
-    expectRefused("twist(angle=1, angle=2)", 16, {"angle is given twice"});
+    expectWordsRefused("", 1, {"found the end", "a deformer: " + names});
+    expectWordsRefused("  ", 3, {"found the end"});
+    expectWordsRefused("(", 1, {"found '('", names});
+    expectWordsRefused("twits(angle=3)", 1, {"'twits'", names, "did you mean 'twist'?"});
+    expectWordsRefused("melt()", 1, {"'melt'", names});
+    expectWordsRefused("twist", 6, {"found the end", "'(' after twist"});
+    expectWordsRefused("twist angle", 7, {"found 'angle'", "'(' after twist"});
+    expectWordsRefused("twist(", 7, {"found the end", "a value of twist: axis, angle"});
+    expectWordsRefused("twist(90)", 7, {"found '90'", "axis, angle"});
+    expectWordsRefused("twist(angel=90)", 7, {"'angel'", "value of twist: axis, angle", "did you mean 'angle'?"});
+    expectWordsRefused("twist(angle 90)", 13, {"found '90'", "'=' after angle"});
+    expectWordsRefused("twist(angle=)", 13, {"found ')'", "a number, t, pi"});
+    expectWordsRefused("twist(angle=90", 15, {"found the end", "an operator, ',' or ')'"});
+    expectWordsRefused("twist(angle=90 axis=y)", 16, {"found 'axis'", "an operator, ',' or ')'"});
+    expectWordsRefused("twist(axis=y angle=90)", 14, {"found 'angle'", "',' or ')'"});
+    expectWordsRefused("twist(,)", 7, {"found ','", "axis, angle"});
+    expectWordsRefused("twist() , bend()", 9, {"found ','", "a deformer"});
+    expectWordsRefused("twist()) ", 8, {"found ')'", "a deformer"});
+    expectWordsRefused("twist(angle=1, angle=2)", 16, {"angle is given twice"});
 }
 
 TEST(DeformerErrors, tellAxesThatAreNone) {
-    expectRefused("twist(axis=w)", 12, {"'w'", "axis: x, y, z, next"});
-    expectRefused("twist(axis=1)", 12, {"found '1'", "x, y, z or next"});
-    expectRefused("twist(axis=xy)", 12, {"'xy'"});
-    expectRefused("scale() twist(axis=next)", 9, {"axis of twist is x, y or z"});
-    expectRefused("bend(axis=z, toward=z)", 1, {"axis and toward of bend", "same axis"});
-    expectRefused("twist() wave(along=y)", 9, {"axis and along of wave", "same axis"});
+    expectWordsRefused("twist(axis=w)", 12, {"'w'", "axis: x, y, z, next"});
+    expectWordsRefused("twist(axis=1)", 12, {"found '1'", "x, y, z or next"});
+    expectWordsRefused("twist(axis=xy)", 12, {"'xy'"});
+    expectWordsRefused("scale() twist(axis=next)", 9, {"axis of twist is x, y or z"});
+    expectWordsRefused("bend(axis=z, toward=z)", 1, {"axis and toward of bend", "same axis"});
+    expectWordsRefused("twist() wave(along=y)", 9, {"axis and along of wave", "same axis"});
 }
 
 TEST(DeformerErrors, nameDeformerValueAndTimeOfValuesThatMakeNoSense) {

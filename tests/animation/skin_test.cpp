@@ -9,10 +9,10 @@
 namespace relief::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 std::vector<float> turnRoundZ(double degrees) {
-    const double half = degrees * kPi / 360;
+    const double half = degrees * kHalfTurn / 360;
     return {0, 0, float(std::sin(half)), float(std::cos(half))};
 }
 
@@ -27,7 +27,7 @@ std::vector<vec4> turnsRoundZ(const std::vector<double>& degrees) {
 
 /// p turned round z.
 dvec3 turned(const dvec3& p, double degrees) {
-    const double c = std::cos(degrees * kPi / 180), s = std::sin(degrees * kPi / 180);
+    const double c = std::cos(degrees * kHalfTurn / 180), s = std::sin(degrees * kHalfTurn / 180);
     return {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
 }
 

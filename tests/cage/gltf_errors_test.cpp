@@ -8,7 +8,7 @@
 namespace relief::test {
 namespace {
 
-GltfFile triangle() {
+GltfFile validFile() {
     GltfFile file;
     file.addMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
     file.addNode({{"mesh", 0}});
@@ -17,7 +17,7 @@ GltfFile triangle() {
 
 /// A triangle with one of everything that a cage is made of.
 GltfFile rich() {
-    GltfFile file = triangle();
+    GltfFile file = validFile();
     const int normals = file.add(std::vector<vec3>(3, vec3(0, 0, 1)));
     const int texCoords = file.add(std::vector<vec2>{{0, 0}, {1, 0}, {0, 1}});
     const int joints = file.add(std::vector<std::uint8_t>(12, 0), "VEC4", kUnsignedByte);
@@ -44,7 +44,7 @@ void expectRefusedBytes(const std::string& bytes, std::vector<std::string> words
 
 /// A good file, spoiled.
 template <typename Spoil>
-void expectRefused(const Spoil& spoil, const std::vector<std::string>& words) {
+void expectGltfRefused(const Spoil& spoil, const std::vector<std::string>& words) {
     GltfFile file = rich();
     spoil(file);
     SCOPED_TRACE(words[0]);
@@ -82,111 +82,117 @@ TEST(GltfErrors, whatIsNoJson) {
 }
 
 TEST(GltfErrors, membersOfWrongTypes) {
-    expectRefused([](GltfFile& f) { f.json["meshes"] = Json::object(); }, {"meshes must be a list"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = "0"; }, {"nodes/0/mesh must be a whole number"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = -1; }, {"nodes/0/mesh must be a whole number"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["skin"] = 1ull << 32; }, {"nodes/0/skin"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {0.5}; }, {"nodes/0/children"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][1]["translation"] = {1, "2", 3}; }, {"nodes/1/translation"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][1]["scale"] = 2; }, {"nodes/1/scale"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 2.5; }, {"accessors/0/count"});
-    expectRefused([](GltfFile& f) { f.attributes()["POSITION"] = nullptr; }, {"primitives/0/attributes/POSITION"});
-    expectRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = "a"; },
-                  {"primitives/0/targets/0/POSITION"});
-    expectRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0]["indices"] = true; },
-                  {"primitives/0/indices"});
-    expectRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {"a"}; }, {"scenes/0/nodes"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"] = 3; }, {"animations/0"});
+    expectGltfRefused([](GltfFile& f) { f.json["meshes"] = Json::object(); }, {"meshes must be a list"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = "0"; }, {"nodes/0/mesh must be a whole number"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = -1; }, {"nodes/0/mesh must be a whole number"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["skin"] = 1ull << 32; }, {"nodes/0/skin"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {0.5}; }, {"nodes/0/children"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][1]["translation"] = {1, "2", 3}; }, {"nodes/1/translation"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][1]["scale"] = 2; }, {"nodes/1/scale"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 2.5; }, {"accessors/0/count"});
+    expectGltfRefused([](GltfFile& f) { f.attributes()["POSITION"] = nullptr; }, {"primitives/0/attributes/POSITION"});
+    expectGltfRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = "a"; },
+                      {"primitives/0/targets/0/POSITION"});
+    expectGltfRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0]["indices"] = true; },
+                      {"primitives/0/indices"});
+    expectGltfRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {"a"}; }, {"scenes/0/nodes"});
+    expectGltfRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"] = 3; }, {"animations/0"});
 }
 
 TEST(GltfErrors, membersThatAreMissing) {
-    expectRefused([](GltfFile& f) { f.json.erase("asset"); }, {"no asset"});
-    expectRefused([](GltfFile& f) { f.json["meshes"][0].erase("primitives"); }, {"meshes/0: has no primitives"});
-    expectRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0].erase("attributes"); }, {"no attributes"});
-    expectRefused([](GltfFile& f) { f.attributes().erase("POSITION"); }, {"meshes/0/primitives/0", "no POSITION"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0].erase("type"); }, {"accessors/0 has no type"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0].erase("bufferView"); }, {"POSITION", "no buffer view"});
-    expectRefused([](GltfFile& f) { f.json["skins"][0].erase("joints"); }, {"skins/0 has no joints"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0].erase("input"); },
-                  {"samplers/0 has no input"});
-    expectRefused([](GltfFile& f) { f.attributes().erase("JOINTS_0"); }, {"only one of JOINTS_0 and WEIGHTS_0"});
-    expectRefused([](GltfFile& f) { f.attributes().erase("JOINTS_0"), f.attributes().erase("WEIGHTS_0"); },
-                  {"no JOINTS_0", "node 0"});
-    expectRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {1}; }, {"no mesh"});
+    expectGltfRefused([](GltfFile& f) { f.json.erase("asset"); }, {"no asset"});
+    expectGltfRefused([](GltfFile& f) { f.json["meshes"][0].erase("primitives"); }, {"meshes/0: has no primitives"});
+    expectGltfRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0].erase("attributes"); }, {"no attributes"});
+    expectGltfRefused([](GltfFile& f) { f.attributes().erase("POSITION"); }, {"meshes/0/primitives/0", "no POSITION"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0].erase("type"); }, {"accessors/0 has no type"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0].erase("bufferView"); }, {"POSITION", "no buffer view"});
+    expectGltfRefused([](GltfFile& f) { f.json["skins"][0].erase("joints"); }, {"skins/0 has no joints"});
+    expectGltfRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0].erase("input"); },
+                      {"samplers/0 has no input"});
+    expectGltfRefused([](GltfFile& f) { f.attributes().erase("JOINTS_0"); }, {"only one of JOINTS_0 and WEIGHTS_0"});
+    expectGltfRefused([](GltfFile& f) { f.attributes().erase("JOINTS_0"), f.attributes().erase("WEIGHTS_0"); },
+                      {"no JOINTS_0", "node 0"});
+    expectGltfRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {1}; }, {"no mesh"});
 }
 
 TEST(GltfErrors, whatDoesNotExist) {
-    expectRefused([](GltfFile& f) { f.attributes()["POSITION"] = 99; }, {"POSITION", "accessor 99", "there are"});
-    expectRefused([](GltfFile& f) { f.attributes()["NORMAL"] = 99; }, {"NORMAL", "accessor 99"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["bufferView"] = 99; }, {"POSITION", "buffer view 99"});
-    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 1; }, {"POSITION", "buffer 1"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = 1; }, {"nodes/0", "mesh 1", "there are 1"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["skin"] = 1; }, {"nodes/0", "skin 1"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {2}; }, {"nodes/0", "child 2"});
-    expectRefused([](GltfFile& f) { f.json["skins"][0]["joints"] = {2}; }, {"skins/0", "node 2"});
-    expectRefused([](GltfFile& f) { f.json["scene"] = 1; }, {"scene 1"});
-    expectRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {0, 7}; }, {"scenes/0", "node 7"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["sampler"] = 1; },
-                  {"animations/0", "sampler 1"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"]["node"] = 2; }, {"node 2"});
-    expectRefused(
+    expectGltfRefused([](GltfFile& f) { f.attributes()["POSITION"] = 99; }, {"POSITION", "accessor 99", "there are"});
+    expectGltfRefused([](GltfFile& f) { f.attributes()["NORMAL"] = 99; }, {"NORMAL", "accessor 99"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["bufferView"] = 99; }, {"POSITION", "buffer view 99"});
+    expectGltfRefused([](GltfFile& f) { f.json["bufferViews"][0]["buffer"] = 1; }, {"POSITION", "buffer 1"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["mesh"] = 1; }, {"nodes/0", "mesh 1", "there are 1"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["skin"] = 1; }, {"nodes/0", "skin 1"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {2}; }, {"nodes/0", "child 2"});
+    expectGltfRefused([](GltfFile& f) { f.json["skins"][0]["joints"] = {2}; }, {"skins/0", "node 2"});
+    expectGltfRefused([](GltfFile& f) { f.json["scene"] = 1; }, {"scene 1"});
+    expectGltfRefused([](GltfFile& f) { f.json["scenes"][0]["nodes"] = {0, 7}; }, {"scenes/0", "node 7"});
+    expectGltfRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["sampler"] = 1; },
+                      {"animations/0", "sampler 1"});
+    expectGltfRefused([](GltfFile& f) { f.json["animations"][0]["channels"][0]["target"]["node"] = 2; }, {"node 2"});
+    expectGltfRefused(
         [](GltfFile& f) {
             overwrite(f, accessorOf(f, "JOINTS_0"), 5, std::uint8_t(1)), //
                 overwrite(f, accessorOf(f, "WEIGHTS_0"), 5, 1.0f);
         },
         {"vertex 1 names joint 1", "skin 0 has 1"});
-    expectRefused([](GltfFile& f) { overwrite(f, f.json["accessors"][1], 2, 3u); },
-                  {"indices", "vertex 3", "there are 3"});
+    expectGltfRefused([](GltfFile& f) { overwrite(f, f.json["accessors"][1], 2, 3u); },
+                      {"indices", "vertex 3", "there are 3"});
 }
 
 TEST(GltfErrors, arraysThatLeaveTheirBytes) {
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 4; }, {"POSITION", "end at byte 48", "has 36"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 2147483647; }, {"POSITION", "2147483647"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }, {"POSITION", "end at byte 40"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4294967295u; }, {"POSITION"});
-    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 16; }, {"POSITION", "end at byte 44"});
-    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 8; }, {"12 bytes every 8 bytes"});
-    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 4294967295u; }, {"buffer view 0 ends"});
-    expectRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 4294967295u; }, {"buffer view 0 ends"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 0; }, {"POSITION", "no elements"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 4; },
+                      {"POSITION", "end at byte 48", "has 36"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 2147483647; }, {"POSITION", "2147483647"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4; }, {"POSITION", "end at byte 40"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["byteOffset"] = 4294967295u; }, {"POSITION"});
+    expectGltfRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 16; }, {"POSITION", "end at byte 44"});
+    expectGltfRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteStride"] = 8; }, {"12 bytes every 8 bytes"});
+    expectGltfRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteLength"] = 4294967295u; },
+                      {"buffer view 0 ends"});
+    expectGltfRefused([](GltfFile& f) { f.json["bufferViews"][0]["byteOffset"] = 4294967295u; },
+                      {"buffer view 0 ends"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["count"] = 0; }, {"POSITION", "no elements"});
 }
 
 TEST(GltfErrors, arraysOfOtherTypes) {
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC4"; }, {"POSITION", "of VEC4, VEC3 expected"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC5"; }, {"VEC5"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = int(kShort); },
-                  {"POSITION", "type 5122"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 5130; }, {"POSITION", "type 5130"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 5124; }, {"POSITION", "type 5124"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 3; }, {"componentType"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][1]["componentType"] = int(kFloat); }, {"indices", "type 5126"});
-    expectRefused([](GltfFile& f) { accessorOf(f, "JOINTS_0")["componentType"] = int(kByte); }, {"JOINTS_0", "5120"});
-    expectRefused([](GltfFile& f) { accessorOf(f, "WEIGHTS_0")["componentType"] = int(kUnsignedByte); },
-                  {"WEIGHTS_0", "plain"}); // bytes, but not normalized
-    expectRefused([](GltfFile& f) { f.json["skins"][0]["inverseBindMatrices"] = 0; }, {"skins/0", "MAT4"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["output"] = 0; }, {"output", "VEC4"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["interpolation"] = "SMOOTH"; },
-                  {"LINEAR, STEP"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC4"; },
+                      {"POSITION", "of VEC4, VEC3 expected"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["type"] = "VEC5"; }, {"VEC5"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = int(kShort); },
+                      {"POSITION", "type 5122"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 5130; }, {"POSITION", "type 5130"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 5124; }, {"POSITION", "type 5124"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][0]["componentType"] = 3; }, {"componentType"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][1]["componentType"] = int(kFloat); },
+                      {"indices", "type 5126"});
+    expectGltfRefused([](GltfFile& f) { accessorOf(f, "JOINTS_0")["componentType"] = int(kByte); },
+                      {"JOINTS_0", "5120"});
+    expectGltfRefused([](GltfFile& f) { accessorOf(f, "WEIGHTS_0")["componentType"] = int(kUnsignedByte); },
+                      {"WEIGHTS_0", "plain"}); // bytes, but not normalized
+    expectGltfRefused([](GltfFile& f) { f.json["skins"][0]["inverseBindMatrices"] = 0; }, {"skins/0", "MAT4"});
+    expectGltfRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["output"] = 0; }, {"output", "VEC4"});
+    expectGltfRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["interpolation"] = "SMOOTH"; },
+                      {"LINEAR, STEP"});
 }
 
 TEST(GltfErrors, countsThatDiffer) {
     for (const std::string attribute : {"NORMAL", "TEXCOORD_0", "JOINTS_0", "WEIGHTS_0"})
-        expectRefused([&](GltfFile& f) { accessorOf(f, attribute)["count"] = 2; },
-                      {attribute, "2 elements, 3 expected"});
-    expectRefused(
+        expectGltfRefused([&](GltfFile& f) { accessorOf(f, attribute)["count"] = 2; },
+                          {attribute, "2 elements, 3 expected"});
+    expectGltfRefused(
         [](GltfFile& f) {
             f.json["meshes"][0]["primitives"][0]["targets"][0]["POSITION"] = f.add(std::vector<vec3>(2));
         },
         {"targets/0/POSITION", "2 elements, 3 expected"});
-    expectRefused([](GltfFile& f) { f.json["meshes"][0]["weights"] = {1, 2}; }, {"2 weights for 1 morph targets"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["weights"] = {1, 2}; }, {"nodes/0", "weights of 2"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][1]["translation"] = {1, 2}; }, {"nodes/1", "translation of 2"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][1]["matrix"] = {1, 2}; }, {"nodes/1", "matrix of 2"});
-    expectRefused([](GltfFile& f) { f.json["skins"][0]["joints"] = {1, 1}; }, {"1 matrices for 2 joints"});
-    expectRefused([](GltfFile& f) { f.json["accessors"][1]["count"] = 2; }, {"2 corners"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["interpolation"] = "CUBICSPLINE"; },
-                  {"output", "2 elements, 6 expected"});
-    expectRefused(
+    expectGltfRefused([](GltfFile& f) { f.json["meshes"][0]["weights"] = {1, 2}; }, {"2 weights for 1 morph targets"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["weights"] = {1, 2}; }, {"nodes/0", "weights of 2"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][1]["translation"] = {1, 2}; }, {"nodes/1", "translation of 2"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][1]["matrix"] = {1, 2}; }, {"nodes/1", "matrix of 2"});
+    expectGltfRefused([](GltfFile& f) { f.json["skins"][0]["joints"] = {1, 1}; }, {"1 matrices for 2 joints"});
+    expectGltfRefused([](GltfFile& f) { f.json["accessors"][1]["count"] = 2; }, {"2 corners"});
+    expectGltfRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["interpolation"] = "CUBICSPLINE"; },
+                      {"output", "2 elements, 6 expected"});
+    expectGltfRefused(
         [](GltfFile& f) {
             Json second = f.json["meshes"][0]["primitives"][0];
             second.erase("targets");
@@ -198,35 +204,42 @@ TEST(GltfErrors, countsThatDiffer) {
 TEST(GltfErrors, numbersThatAreNotFinite) {
     for (const std::string attribute : {"POSITION", "NORMAL", "TEXCOORD_0", "WEIGHTS_0"})
         for (const float number : {float(NAN), float(INFINITY)})
-            expectRefused([&](GltfFile& f) { overwrite(f, accessorOf(f, attribute), 5, number); },
-                          {attribute, "not finite"});
-    expectRefused([](GltfFile& f) { overwrite(f, accessorOf(f, "WEIGHTS_0"), 5, -1.0f); }, {"WEIGHTS_0", "weight -1"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][1]["rotation"] = {0, 0, 0, 0}; }, {"nodes/1", "rotation"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][1]["matrix"] = std::vector<int>(16, 1); }, {"nodes/1", "last row"});
+            expectGltfRefused([&](GltfFile& f) { overwrite(f, accessorOf(f, attribute), 5, number); },
+                              {attribute, "not finite"});
+    expectGltfRefused([](GltfFile& f) { overwrite(f, accessorOf(f, "WEIGHTS_0"), 5, -1.0f); },
+                      {"WEIGHTS_0", "weight -1"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][1]["rotation"] = {0, 0, 0, 0}; }, {"nodes/1", "rotation"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][1]["matrix"] = std::vector<int>(16, 1); },
+                      {"nodes/1", "last row"});
     // Finite, but what they make is not.
-    expectRefused([](GltfFile& f) { f.json["nodes"][1]["scale"] = {1e200, 1e200, 1e200}; }, {"vertex", "not finite"});
+    expectGltfRefused(
+        [](GltfFile& f) {
+            f.json["nodes"][1]["scale"] = {1e200, 1e200, 1e200};
+        },
+        {"vertex", "not finite"});
 }
 
 TEST(GltfErrors, keysThatDoNotRise) {
-    expectRefused(
+    expectGltfRefused(
         [](GltfFile& f) {
             f.json["animations"][0]["samplers"][0]["input"] = f.add(std::vector<float>{1, 1});
         },
         {"key 1 is at 1 s", "must rise"});
-    expectRefused(
+    expectGltfRefused(
         [](GltfFile& f) {
             f.json["animations"][0]["samplers"][0]["input"] = f.add(std::vector<float>{1, NAN});
         },
         {"input", "not finite"});
-    expectRefused([](GltfFile& f) { f.json["animations"][0]["samplers"][0]["output"] = f.add(std::vector<vec4>(2)); },
-                  {"rotation of key 0"});
-    expectRefused(
+    expectGltfRefused(
+        [](GltfFile& f) { f.json["animations"][0]["samplers"][0]["output"] = f.add(std::vector<vec4>(2)); },
+        {"rotation of key 0"});
+    expectGltfRefused(
         [](GltfFile& f) {
             Json& channels = f.json["animations"][0]["channels"];
             channels.push_back(Json(channels[0]));
         },
         {"rotation of node 1 twice"});
-    expectRefused(
+    expectGltfRefused(
         [](GltfFile& f) {
             f.json["nodes"][1] = {{"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}};
         },
@@ -234,10 +247,10 @@ TEST(GltfErrors, keysThatDoNotRise) {
 }
 
 TEST(GltfErrors, treesThatAreNone) {
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {0}; }, {"nodes/0: is below itself"});
-    expectRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {1}, f.json["nodes"][1]["children"] = {0}; },
-                  {"nodes/0: is below itself"});
-    expectRefused(
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {0}; }, {"nodes/0: is below itself"});
+    expectGltfRefused([](GltfFile& f) { f.json["nodes"][0]["children"] = {1}, f.json["nodes"][1]["children"] = {0}; },
+                      {"nodes/0: is below itself"});
+    expectGltfRefused(
         [](GltfFile& f) {
             f.json["nodes"][0]["children"] = {1, 1};
         },
@@ -256,20 +269,20 @@ TEST(GltfErrors, sparseArraysThatDoNotFit) {
             sparse[Json::json_pointer(what)] = value;
         };
     };
-    expectRefused(spoil("/count", 0), {"POSITION", "0 sparse elements"});
-    expectRefused(spoil("/count", 4), {"POSITION", "4 sparse elements of 3"});
-    expectRefused(spoil("/count", 2), {"POSITION", "2 elements end at byte 24"});
-    expectRefused(spoil("/indices/byteOffset", 2), {"POSITION", "sparse element 3"});
-    expectRefused(spoil("/indices/byteOffset", 4294967295u), {"POSITION"});
-    expectRefused(spoil("/values/byteOffset", 4), {"POSITION", "end at byte 16"});
-    expectRefused(spoil("/indices/componentType", int(kShort)), {"POSITION", "5122"});
-    expectRefused(spoil("/indices/bufferView", 99), {"POSITION", "buffer view 99"});
-    expectRefused(spoil("/values", Json::object()), {"bufferView"});
+    expectGltfRefused(spoil("/count", 0), {"POSITION", "0 sparse elements"});
+    expectGltfRefused(spoil("/count", 4), {"POSITION", "4 sparse elements of 3"});
+    expectGltfRefused(spoil("/count", 2), {"POSITION", "2 elements end at byte 24"});
+    expectGltfRefused(spoil("/indices/byteOffset", 2), {"POSITION", "sparse element 3"});
+    expectGltfRefused(spoil("/indices/byteOffset", 4294967295u), {"POSITION"});
+    expectGltfRefused(spoil("/values/byteOffset", 4), {"POSITION", "end at byte 16"});
+    expectGltfRefused(spoil("/indices/componentType", int(kShort)), {"POSITION", "5122"});
+    expectGltfRefused(spoil("/indices/bufferView", 99), {"POSITION", "buffer view 99"});
+    expectGltfRefused(spoil("/values", Json::object()), {"bufferView"});
 }
 
 TEST(GltfErrors, extensionsWithoutWhichNothingIsThere) {
-    expectRefused([](GltfFile& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
-                  {"KHR_draco_mesh_compression", "export it without"});
+    expectGltfRefused([](GltfFile& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
+                      {"KHR_draco_mesh_compression", "export it without"});
 }
 
 /// Few bytes that would unfold to hundreds of gigabytes.
@@ -293,7 +306,7 @@ TEST(GltfErrors, filesThatUnfold) {
 void expectUriRefused(Failure failure, const Json& uri, const std::vector<std::string>& words) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder.path / "scene");
-    const GltfFile file = triangle();
+    const GltfFile file = validFile();
     putFile(folder / "secret.bin", file.bytes);
     Json json = file.json;
     json["buffers"][0] = {{"byteLength", file.bytes.size()}};
@@ -314,13 +327,13 @@ TEST(GltfErrors, buffersElsewhere) {
 }
 
 TEST(GltfErrors, buffersOfAnotherLength) {
-    const std::string header = "data:application/octet-stream;base64,", bytes = triangle().bytes;
+    const std::string header = "data:application/octet-stream;base64,", bytes = validFile().bytes;
     expectUriRefused(Failure::input, header + base64(bytes + "1234"), {"no valid glTF"});
     expectUriRefused(Failure::input, header + base64(bytes.substr(4)), {"no valid glTF"});
     expectUriRefused(Failure::input, header + "////%%%%", {"no valid glTF"});
     expectUriRefused(Failure::file, "data:,", {"data:,"});
     const TemporaryFolder folder;
-    Json json = triangle().json;
+    Json json = validFile().json;
     json["buffers"][0] = {{"byteLength", bytes.size()}, {"uri", "a.bin"}};
     putFile(folder / "a.gltf", json.dump());
     putFile(folder / "a.bin", bytes.substr(1));

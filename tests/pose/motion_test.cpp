@@ -4,15 +4,12 @@
 #include "frame/device.h"
 #include "meshes.h"
 #include "pose/pose.h"
+#include "pose/poses.h"
 
 namespace relief::test {
 namespace {
 
 class Motion : public OnDevice {};
-
-Pose poseOf(std::vector<vec3> positions) {
-    return {.positions = std::move(positions), .joints = {}, .morphWeights = {}};
-}
 
 std::vector<vec3> moved(const std::vector<vec3>& positions, const mat3& turn, const vec3& shift) {
     std::vector<vec3> all;

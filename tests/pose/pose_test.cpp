@@ -5,6 +5,7 @@
 #include "frame/device.h"
 #include "meshes.h"
 #include "pose/pose.h"
+#include "pose/poses.h"
 #include "shared/displacement.h"
 #include "shared/pose.h"
 #include "support.h"
@@ -20,10 +21,6 @@ std::vector<vec3> twisted(const Cage& cage, double amount) {
         positions.emplace_back(c * p.x - s * p.z, 1.13 * p.y + 0.07 * amount * p.x * p.z, s * p.x + c * p.z);
     }
     return positions;
-}
-
-Pose poseOf(std::vector<vec3> positions) {
-    return {.positions = std::move(positions), .joints = {}, .morphWeights = {}};
 }
 
 std::vector<SampleQuery> randomQueries(const Surface& surface, int count) {
