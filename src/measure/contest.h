@@ -21,7 +21,7 @@ inline bool operator<(const Saving& a, const Saving& b) {
     return std::tie(a.isolation, a.side, a.format, a.rate) < std::tie(b.isolation, b.side, b.format, b.rate);
 }
 
-/// The reference is the displaced surface itself at four times the triangles of the largest mesh that is judged.
+/// The reference is the displaced surface itself at four times `triangles`; surfaces of up to twice as many are judged.
 class Contest {
 public:
     Contest(Device& device, const Subject& subject, double triangles, std::size_t sampleCount);

@@ -84,7 +84,6 @@ void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
     for (const Drawn& drawn : timed) looks_[drawn.name].frame = drawn.wall;
     if (!std::exchange(hasPair_, true)) {
         addPair(tolerance, "dense mesh, raw", "cage + BC4 map");
-        addPair(tolerance, "dense mesh, raw", "cage + float map");
         addPair(tolerance, "simplified mesh, raw", "cage + float map");
     }
 }
