@@ -79,8 +79,7 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& path, const Image
              humanBytes(limits.decodedBytes));
 }
 
-// --- files that were cut: libjpeg fills them up with grey and calls it success, libpng prints to stderr
-// -----------------
+// --- files that were cut: libjpeg fills them up with grey and calls it success, libpng prints to stderr ------------
 
 /// True when the chunks (length, type, data, checksum) run to the end chunk.
 bool pngHasEnd(const std::string& path) {

@@ -87,7 +87,7 @@ struct CageSummary {
 };
 CageSummary summarize(const Cage& cage);
 
-// --- dense meshes ---------------------------------------------------------------------------------------------------
+// --- dense meshes --------------------------------------------------------------------------------------------------
 
 /// What a mesh costs as floats: position, normal and texture coordinates a vertex, three 32-bit indices a triangle.
 constexpr std::uint64_t denseBytes(std::uint64_t vertexCount, std::uint64_t triangleCount) {

@@ -6,15 +6,7 @@ namespace relief {
 void Renderer::Parts::layerPass(VkCommandBuffer commands, const Frame& frame) {
     const VkRenderingAttachmentInfo colors[] = {attachment(layerTargets->normals), attachment(layerTargets->places)};
     const VkRenderingAttachmentInfo depth = attachment(layerTargets->depths);
-    const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = {{0, 0}, {width, height}};
-    info.layerCount = 1;
-    info.colorAttachmentCount = 2;
-    info.pColorAttachments = colors;
-    info.pDepthAttachment = &depth;
-    vkCmdBeginRendering(commands, &info);
-    setViewport(commands, width, height);
+    beginRendering(commands, colors, &depth, size());
     draw(commands, frame, Pass::layers);
     vkCmdEndRendering(commands);
     barrier(commands);

@@ -184,14 +184,8 @@ BindingSet Renderer::Parts::bindingSet(const Frame& frame, Pass pass) {
 }
 
 void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
-    const auto side = std::uint32_t(desc.shadowSide);
     const VkRenderingAttachmentInfo depth = attachment(targets.shadow);
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = {{0, 0}, {side, side}};
-    info.layerCount = 1;
-    info.pDepthAttachment = &depth;
-    vkCmdBeginRendering(commands, &info);
-    setViewport(commands, side, side);
+    beginRendering(commands, {}, &depth, uvec2(desc.shadowSide));
     draw(commands, frame, Pass::shadow);
     vkCmdEndRendering(commands);
     barrier(commands);
@@ -200,15 +194,7 @@ void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
 void Renderer::Parts::colorPass(VkCommandBuffer commands, const Frame& frame) {
     const VkRenderingAttachmentInfo colors[] = {attachment(targets.normals), attachment(targets.colors)};
     const VkRenderingAttachmentInfo depth = attachment(targets.depths);
-    const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = {{0, 0}, {width, height}};
-    info.layerCount = 1;
-    info.colorAttachmentCount = 2;
-    info.pColorAttachments = colors;
-    info.pDepthAttachment = &depth;
-    vkCmdBeginRendering(commands, &info);
-    setViewport(commands, width, height);
+    beginRendering(commands, colors, &depth, size());
     draw(commands, frame, Pass::color);
     if (frame.options.show == Show::wireframe) draw(commands, frame, Pass::lines);
     vkCmdEndRendering(commands);
@@ -291,13 +277,7 @@ std::uint64_t Renderer::crackPixels(const Model& model, const RenderOptions& opt
     parts.device.run([&](VkCommandBuffer commands) {
         writeScene(commands, parts.scene, frame.scene);
         const VkRenderingAttachmentInfo color = attachment(sums);
-        VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-        info.renderArea = {{0, 0}, {width, height}};
-        info.layerCount = 1;
-        info.colorAttachmentCount = 1;
-        info.pColorAttachments = &color;
-        vkCmdBeginRendering(commands, &info);
-        setViewport(commands, width, height);
+        beginRendering(commands, {&color, 1}, nullptr, parts.size());
         parts.draw(commands, frame, Parts::Pass::cracks);
         vkCmdEndRendering(commands);
         barrier(commands);

@@ -21,6 +21,19 @@ inline void setViewport(VkCommandBuffer commands, std::uint32_t width, std::uint
     vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
+/// Cleared targets of one size, drawn over as a whole; `depth` may be null.
+inline void beginRendering(VkCommandBuffer commands, std::span<const VkRenderingAttachmentInfo> colors,
+                           const VkRenderingAttachmentInfo* depth, const uvec2& size) {
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea = {{0, 0}, {size.x, size.y}};
+    info.layerCount = 1;
+    info.colorAttachmentCount = std::uint32_t(colors.size());
+    info.pColorAttachments = colors.data();
+    info.pDepthAttachment = depth;
+    vkCmdBeginRendering(commands, &info);
+    setViewport(commands, size.x, size.y);
+}
+
 struct Renderer::Parts {
     Parts(Device& device, const RendererDesc& desc)
         : device(device), desc(desc), targets(makeTargets(device, desc)), scene(makeSceneBuffer(device)),
@@ -51,6 +64,8 @@ struct Renderer::Parts {
     const Environment* uploadedEnvironment = nullptr;
     Texture environment;
     std::optional<LayerTargets> layerTargets;
+
+    [[nodiscard]] uvec2 size() const { return {desc.width, desc.height}; }
 
     /// Everything that one call of render() needs.
     struct Frame {

@@ -1,6 +1,8 @@
 // relief animate, as a user runs it.
 #include <thread>
 
+#include "cage/cage.h"
+#include "gltf.h"
 #include "program.h"
 
 namespace relief::test {
@@ -94,6 +96,52 @@ TEST_F(Animate, turnsOnceAround) {
     }
     EXPECT_LT(again, 0.02);
     EXPECT_GT(across, 0.05);
+}
+
+/// The torus on two joints, of which the second one turns by 60 degrees within a second.
+GltfFile skinnedTorus(const Cage& cage) {
+    GltfFile file;
+    file.addMesh(cage.positions, {0, 1, 2});
+    std::vector<std::uint8_t> joints;
+    std::vector<vec4> weights;
+    for (const vec3& p : cage.positions) {
+        const float share = std::clamp(0.5f + 0.4f * p.x, 0.0f, 1.0f);
+        joints.insert(joints.end(), {0, 1, 0, 0});
+        weights.emplace_back(1 - share, share, 0, 0);
+    }
+    const int jointsAt = file.add(joints, "VEC4", kUnsignedByte), weightsAt = file.add(weights);
+    file.attributes()["JOINTS_0"] = jointsAt;
+    file.attributes()["WEIGHTS_0"] = weightsAt;
+    file.addNode({{"mesh", 0}, {"skin", 0}});
+    file.addNode({{"name", "still"}, {"children", {2}}});
+    file.addNode({{"name", "turning"}}, false);
+    file.json["skins"] = {{{"joints", {1, 2}}}};
+    file.addChannel(2, "rotation", file.add(std::vector<float>{0, 1}),
+                    file.add(std::vector<vec4>{{0, 0, 0, 1}, {0, 0, 0.5f, 0.8660254f}}));
+    return file;
+}
+
+TEST_F(Animate, skinsOnTheDeviceWhatASkinSays) {
+    putFile(folder_ / "skin.glb", skinnedTorus(readCage(cagePath("torus"))).glb());
+    const auto skin = [&](const std::string& frames, const std::string& target) {
+        return with({"--skin", folder_ / "skin.glb", "--frames", frames, "-o", folder_ / target});
+    };
+    const std::string held = "--distance 14 --look-at 0,0,0";
+    const nlohmann::json json = jsonOf(relief(skin("0,8", "skin.{frame}.exr"), held + " --json"));
+    EXPECT_EQ(json.at("frames")[1].at("uploaded_bytes"), 2 * 12 * 4); // two joints, three rows of four
+    // The same by way of positions that the processor has posed.
+    expectDone(relief(skin("0:8", "cache.pc2")));
+    expectDone(
+        relief(with({"--cache", folder_ / "cache.pc2", "--frames", "8", "-o", folder_ / "cache.{frame}.exr"}), held));
+    const Image rest = readImage(folder_ / "skin.0.exr"), moved = readImage(folder_ / "skin.8.exr"),
+                sent = readImage(folder_ / "cache.8.exr");
+    double same = 0, apart = 0;
+    for (std::size_t i = 0; i < moved.texels.size(); ++i) {
+        same += std::pow(moved.texels[i] - sent.texels[i], 2);
+        apart += std::pow(moved.texels[i] - rest.texels[i], 2);
+    }
+    EXPECT_LT(std::sqrt(same / double(moved.texels.size())), 0.005);
+    EXPECT_GT(std::sqrt(apart / double(moved.texels.size())), 0.05);
 }
 
 // --- going on ------------------------------------------------------------------------------------------------------

@@ -31,7 +31,7 @@ HeightMap wavyMap(double scale) {
     return makeHeightMap(size, size, std::move(texels), 0, scale, Wrap::repeat);
 }
 
-// --- formulas on closed forms ---------------------------------------------------------------------------------------
+// --- formulas on closed forms --------------------------------------------------------------------------------------
 
 /// A surface known by formula with a height on it, at one (u,v).
 struct Known {
@@ -102,7 +102,7 @@ TEST(DisplacedNormals, OfASphereAreThoseOfASurfaceOfRevolution) {
     EXPECT_LE(degreesBetween(known.full(), (r + known.h) * known.n - known.dh.y * north), 1e-6);
 }
 
-// --- displacedFrame -------------------------------------------------------------------------------------------------
+// --- displacedFrame ------------------------------------------------------------------------------------------------
 
 TEST(DisplacedFrames, OfAPlaneNeedNoCurvature) {
     Cage cage = boundaryGrid(3, 3);
