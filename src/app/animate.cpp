@@ -38,8 +38,7 @@ void checkTarget(const AnimateArgs& args) {
     if (!args.target.ends_with(".png") && !args.target.ends_with(".exr"))
         fail(Failure::usage,
              "{}: an animation is written as pictures ('frame.{{frame:4}}.png', .exr), a clip (.mp4 .webm .gif .webp) "
-             "or a "
-             "point cache (.pc2 .mdd)",
+             "or a point cache (.pc2 .mdd)",
              args.target);
     checkPicturePath(args.target, args.picture);
     checkWritable(frameName(args.target, 0));
