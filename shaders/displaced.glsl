@@ -1,7 +1,8 @@
-// Heights, and points of the displaced surface by name: (face,u,v) inside a face, (edge, k, N) and corners at their owner.
+// Points of the displaced surface by name: (face,u,v) inside a face, (edge, k, N) and corners at their owner.
 #ifndef RELIEF_DISPLACED_GLSL
 #define RELIEF_DISPLACED_GLSL
 
+#include "heights.glsl"
 #include "limit.glsl"
 #include "places.glsl"
 #include "shared/displacement.h"
@@ -10,80 +11,6 @@ layout(constant_id = 1) const bool kHasTexCoords = false; // else a face's own (
 layout(constant_id = 2) const bool kHasHeight = false;
 layout(constant_id = 3) const uint kNormal = kNormalFull;
 layout(constant_id = 4) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
-
-layout(set = 0, binding = kBindHeight) uniform samplerBuffer heightTexels;
-
-// --- heights --------------------------------------------------------------------------------------------------------
-
-struct HeightSample {
-    float h;
-    vec2 gradient;  // (h_s, h_t)
-};
-
-// The map's columns or rows first - 1 to first + 2.
-ivec4 wrapped(int first, int size) {
-    ivec4 at = first + ivec4(-1, 0, 1, 2);
-    if (scene.mapRepeats == 0u) return clamp(at, 0, size - 1);
-    // The first one falls anywhere, the others follow it.
-    int start = at.x - size * int(floor(float(at.x) / float(size)));
-    at = start + ivec4(0, 1, 2, 3);
-    return size < 4 ? at % size : at - size * ivec4(greaterThanEqual(at, ivec4(size)));
-}
-
-// Texels are fetched and weighed here, not by the sampler, whose fractions are 8 bits on many devices: stairs in h_s.
-struct HeightLevel {
-    ivec2 size;
-    int first;
-};
-
-float texel(HeightLevel level, int column, int row) {
-    return texelFetch(heightTexels, level.first + row * level.size.x + column).r;
-}
-
-// h bilinear; h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569), h_t likewise: twelve texels, of
-// which the four around the point serve both. t points up, rows go down.
-HeightSample sampleLevel(vec2 st, uint number) {
-    HeightLevel l = HeightLevel(max(scene.mapSize >> int(number), 1), int(scene.mapFirsts[number]));
-    precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(l.size) - 0.5;
-    vec2 whole = floor(x);
-    vec2 f = x - whole;
-    ivec4 c = wrapped(int(whole.x), l.size.x), r = wrapped(int(whole.y), l.size.y);
-    vec4 below = vec4(texel(l, c.x, r.y), texel(l, c.y, r.y), texel(l, c.z, r.y), texel(l, c.w, r.y));
-    vec4 above = vec4(texel(l, c.x, r.z), texel(l, c.y, r.z), texel(l, c.z, r.z), texel(l, c.w, r.z));
-    vec2 low = vec2(texel(l, c.y, r.x), texel(l, c.z, r.x));
-    vec2 high = vec2(texel(l, c.y, r.w), texel(l, c.z, r.w));
-
-    // Rows: value at x in each of the four rows; and the difference across two texels in the middle two.
-    precise float rowLow = mix(low.x, low.y, f.x), row0 = mix(below.y, below.z, f.x);
-    precise float row1 = mix(above.y, above.z, f.x), rowHigh = mix(high.x, high.y, f.x);
-    precise float across0 = mix(below.z, below.w, f.x) - mix(below.x, below.y, f.x);
-    precise float across1 = mix(above.z, above.w, f.x) - mix(above.x, above.y, f.x);
-    precise float down = mix(row1, rowHigh, f.y) - mix(rowLow, row0, f.y);
-
-    HeightSample s;
-    s.h = scene.heightScale * (mix(row0, row1, f.y) - scene.heightMid);
-    vec2 perUnit = 0.5 * scene.heightScale * vec2(l.size);
-    s.gradient = vec2(mix(across0, across1, f.y), -down) * perUnit;
-    return s;
-}
-
-// Between two levels of the map.
-HeightSample sampleHeight(vec2 st, float level) {
-    if (!kHasMips) return sampleLevel(st, 0u);
-    float last = float(scene.mapLevels - 1u);
-    level = clamp(level, 0.0, last);
-    float lower = floor(level);
-    precise float f = level - lower;
-    HeightSample s = HeightSample(0.0, vec2(0));
-    for (uint i = 0u; i < (f > 0.0 ? 2u : 1u); ++i) {
-        precise float weight = i == 0u ? 1.0 - f : f;
-        HeightSample one = sampleLevel(st, uint(lower) + i);
-        precise float h = s.h + weight * one.h;
-        s.h = h;
-        s.gradient += weight * one.gradient;
-    }
-    return s;
-}
 
 // --- normals --------------------------------------------------------------------------------------------------------
 

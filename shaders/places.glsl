@@ -24,8 +24,6 @@ struct Place {
     float level;     // of the height map: continuous over the surface, the corners' own along edges and inside faces
 };
 
-layout(constant_id = 8) const bool kHasMips = false;
-
 float cornerLevel(uint corner) { return kHasMips ? texelFetch(levelTexels, int(corner)).x : 0.0; }
 
 // Corners of a quad are in the order of its sides; of a triangle three are used.

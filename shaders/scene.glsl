@@ -24,6 +24,7 @@ layout(set = 0, binding = kBindEdgeRates) uniform samplerBuffer edgeRateTexels;
 layout(set = 0, binding = kBindDrawFaces) uniform usamplerBuffer drawFaceTexels;
 layout(set = 0, binding = kBindLevels) uniform samplerBuffer levelTexels;
 
+layout(constant_id = 8) const bool kHasMips = false;
 layout(constant_id = 10) const bool kStretches = false; // heights grow with the surface since scene.pointsRest
 
 // The pose that patches are evaluated in: this frame's, unless a stage asks for another one.

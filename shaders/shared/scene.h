@@ -4,6 +4,7 @@
 #ifndef RELIEF_SHARED_SCENE_H
 #define RELIEF_SHARED_SCENE_H
 
+#include "shared/maps.h"
 #include "shared/sample.h"
 #include "shared/surface.h"
 
@@ -25,7 +26,7 @@ RELIEF_ARRAY(Results, SampleResult)
 
 // Set 0.
 RELIEF_CONSTANT uint kBindScene = 0u;
-RELIEF_CONSTANT uint kBindHeight = 1u;       // texels of the height map, row after row from the top, level after level
+RELIEF_CONSTANT uint kBindHeight = 1u;       // words of the height map: shared/maps.h
 RELIEF_CONSTANT uint kBindAlbedo = 2u;       // sampled images
 RELIEF_CONSTANT uint kBindEnvironment = 3u;
 RELIEF_CONSTANT uint kBindShadow = 4u;
@@ -102,13 +103,14 @@ struct Scene {
     uint pointsBefore;
     uint pointsRest;
 
-    // h = heightScale * (texel - heightMid) in cage units; a map of 0 x 0 is no displacement.
+    // h = heightScale * (number - heightMid) in cage units, of the numbers that the map's words hold; a map of 0 x 0 is no
+    // displacement.
     ivec2 mapSize;
     float heightMid;
     float heightScale;
     uint mapRepeats;     // 1 repeat, 0 clamp
     uint mapLevels;
-    uint mapFirsts[16];  // where each level's texels begin; a level is half as large as the one before, at least 1
+    uint mapFirsts[16];  // where each level's words begin; a level is half as large as the one before, at least 1
     uint firstFaceLevel; // texel of kBindLevels
     uint edgeCount;
 
@@ -138,8 +140,6 @@ struct Scene {
     vec3 crackShift;        // see emit.glsl; 0 for pictures
     float shadowSoftness;   // radius of the filter, as a fraction of the shadow map
 };
-
-RELIEF_CONSTANT uint kMostMapLevels = 16u;
 
 // What layers.comp leaves of a pixel, floats in this order: distance along the view (1e10 where nothing is seen), unit normal,
 // face of the cage (-1: none), texture coordinates, height, motion in pixels (x right, y down) since the frame before.

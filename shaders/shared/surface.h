@@ -15,9 +15,6 @@
 
 #ifdef __cplusplus
 namespace relief {
-#define RELIEF_CONSTANT inline constexpr
-#else
-#define RELIEF_CONSTANT const
 #endif
 
 // Tree entries: a leaf names a patch, an inner entry names the first of four child entries, kNoPatch is a hole.

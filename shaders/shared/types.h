@@ -14,6 +14,7 @@ using uint = std::uint32_t;
 
 // Formulas: in C++ the shared functions are double precision, on the device single.
 #define RELIEF_SHARED_FUNCTION inline
+#define RELIEF_CONSTANT inline constexpr
 namespace relief::formulas {
 using real = double;
 using real2 = glm::dvec2;
@@ -24,6 +25,7 @@ using real2x2 = glm::dmat2;
 #else
 
 #define RELIEF_SHARED_FUNCTION
+#define RELIEF_CONSTANT const
 #define real float
 #define real2 vec2
 #define real3 vec3

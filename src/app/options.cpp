@@ -160,6 +160,11 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     listed(addWord(app, "--wrap", args.wrap, "outside the map: repeat it, or clamp to its border (repeat)",
                    {"repeat", "clamp"}),
            "WRAP", group);
+    listed(addWord(app, "--map-format", args.mapFormat,
+                   "the map on the device: float, half, unorm16, unorm8, bc4, or auto: the smallest that keeps what the "
+                   "file says (auto)",
+                   {"auto", "float", "half", "unorm16", "unorm8", "bc4"}),
+           "FORMAT", group);
 }
 
 void addTime(CLI::App& app, PoseArgs& args) {
@@ -306,6 +311,16 @@ std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, c
 
 namespace {
 
+/// Of --map-format; nothing for auto.
+std::optional<MapFormat> mapFormatOf(const std::string& word) {
+    if (word == "float") return MapFormat::real;
+    if (word == "half") return MapFormat::half;
+    if (word == "unorm16") return MapFormat::unorm16;
+    if (word == "unorm8") return MapFormat::unorm8;
+    if (word == "bc4") return MapFormat::bc4;
+    return {};
+}
+
 /// Moves the cage to the pose of --time.
 void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path) {
     if (args.time && !loaded.animation)
@@ -350,6 +365,7 @@ Loaded load(const SurfaceArgs& args, const Output& output) {
                                     .scale = args.scale,
                                     .channel = args.channel,
                                     .wrap = args.wrap == "clamp" ? Wrap::clamp : Wrap::repeat,
+                                    .format = mapFormatOf(args.mapFormat),
                                     .limits = {}};
         loaded.height = loadHeightMap(args.height, options, output.warn());
         if (!loaded.cage.hasTexCoords())

@@ -37,6 +37,7 @@ struct SurfaceArgs {
     std::optional<double> scale, mid;
     int channel = 0;
     std::string wrap = "repeat";
+    std::string mapFormat = "auto";
     PoseArgs pose;
 };
 

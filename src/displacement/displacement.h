@@ -1,9 +1,12 @@
 // Height maps and the displaced surface: load, convention, lookup, double-precision reference.
 #pragma once
 
+#include <array>
 #include <optional>
+#include <span>
 
 #include "base/base.h"
+#include "shared/maps.h"
 #include "surface/surface.h"
 
 namespace relief {
@@ -11,11 +14,22 @@ namespace relief {
 /// What a lookup outside [0,1] finds: the map again, or its border.
 enum class Wrap { repeat, clamp };
 
+/// How the texels of a height map are kept on the device. Integers and blocks span a range.
+enum class MapFormat : std::uint32_t {
+    real = kMapReal,       ///< 32-bit floats
+    half = kMapHalf,       ///< 16-bit floats
+    unorm16 = kMapUnorm16, ///< 16-bit integers
+    unorm8 = kMapUnorm8,   ///< 8-bit integers
+    bc4 = kMapBc4,         ///< 4 bits a texel: blocks of 4 x 4 texels
+};
+std::string nameOf(MapFormat format);
+
 struct HeightOptions {
     std::optional<double> mid;   ///< stored value that means no displacement; default 0.5 integer files, 0 float files
     std::optional<double> scale; ///< cage units for one unit of stored height; default 1
     int channel = 0;             ///< 0-based channel of the file
     Wrap wrap = Wrap::repeat;
+    std::optional<MapFormat> format; ///< default: the smallest that keeps what the file says
     ImageLimits limits;
 };
 
@@ -27,6 +41,10 @@ struct HeightMap {
     Wrap wrap = Wrap::repeat;
     float lowest = 0, highest = 0; ///< range of the stored values
 
+    MapFormat format = MapFormat::real; ///< `texels` are what a reader of it finds
+    float base = 0, range = 1;          ///< integers and blocks: a stored value is base + range * (0..1)
+    std::vector<std::uint8_t> blocks;   ///< bc4: 8 bytes each, row after row
+
     /// Largest |h| in cage units.
     [[nodiscard]] double reach() const;
     [[nodiscard]] std::uint64_t byteCount() const { return texels.size() * sizeof(float); }
@@ -35,6 +53,29 @@ struct HeightMap {
 /// Reads one channel as raw data. Warns about 8-bit sources (stairs) and integer sources without a scale.
 /// Throws as readImage does, and Failure::input for a missing channel or a texel that is not finite.
 HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn = warnOnStderr);
+
+/// The map in another format: its texels are rounded to what that keeps, over their own range.
+HeightMap inFormat(const HeightMap& map, MapFormat format);
+
+/// The words of a map as the device holds them (shared/maps.h), with its mips: each texel the mean of four of the level
+/// before, or of what there is.
+struct MapWords {
+    std::vector<std::uint32_t> words;
+    std::vector<std::uint32_t> firsts; ///< first word of each level
+    float roundOff = 0;                ///< largest difference of a mip's texel from the mean that it stands for
+};
+MapWords wordsOf(const HeightMap& map);
+/// Bytes of them, without making them.
+std::uint64_t mapBytes(MapFormat format, int width, int height);
+/// h = scale * (number - mid) of the numbers that the words hold.
+struct WordScale {
+    double mid = 0, scale = 1;
+};
+WordScale wordScale(const HeightMap& map);
+
+/// 16 values 0..1, row after row, as 8 bytes (Khronos Data Format Specification 1.3, section 20.3, "BC4 unsigned").
+std::array<std::uint8_t, 8> encodeBc4(std::span<const float, 16> values);
+std::array<float, 16> decodeBc4(std::span<const std::uint8_t, 8> block);
 
 /// A map from values in memory (row 0 on top); checks the size and that all values are finite.
 HeightMap makeHeightMap(int width, int height, std::vector<float> texels, double mid, double scale, Wrap wrap);

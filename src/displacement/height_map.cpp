@@ -52,6 +52,12 @@ HeightMap finishMap(HeightMap map, const std::string& name) {
     return map;
 }
 
+/// The smallest format that holds every value of such a file.
+MapFormat formatOf(const ImageInfo& info) {
+    if (info.isFloat) return info.sampleBytes == 2 ? MapFormat::half : MapFormat::real;
+    return info.sampleBytes == 1 ? MapFormat::unorm8 : info.sampleBytes == 2 ? MapFormat::unorm16 : MapFormat::real;
+}
+
 void warnAbout(const ImageInfo& info, const std::string& path, const HeightOptions& options, const Warn& warn) {
     if (info.sampleBytes == 1) warn(fmt::format("{}: 8-bit heights show as stairs; use 16 bits or float", path));
     if (!info.isFloat && !options.scale)
@@ -70,13 +76,16 @@ HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, c
              info.channels - 1);
     warnAbout(info, path, options, warn);
     Image image = readImage(path, options.channel, options.limits);
-    return finishMap({.width = image.width,
-                      .height = image.height,
-                      .texels = std::move(image.texels),
-                      .mid = options.mid.value_or(info.isFloat ? 0.0 : 0.5),
-                      .scale = options.scale.value_or(1.0),
-                      .wrap = options.wrap},
-                     path);
+    HeightMap map = finishMap({.width = image.width,
+                               .height = image.height,
+                               .texels = std::move(image.texels),
+                               .mid = options.mid.value_or(info.isFloat ? 0.0 : 0.5),
+                               .scale = options.scale.value_or(1.0),
+                               .wrap = options.wrap},
+                              path);
+    if (options.format) return inFormat(map, *options.format);
+    map.format = formatOf(info);
+    return map;
 }
 
 HeightMap makeHeightMap(int width, int height, std::vector<float> texels, double mid, double scale, Wrap wrap) {

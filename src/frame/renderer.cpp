@@ -34,7 +34,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) cons
                       .hasHeight = frame.model.hasHeight(),
                       .normal = frame.options.normal,
                       .hasMips = frame.rates.hasMips(),
-                      .stretches = frame.model.stretches()};
+                      .stretches = frame.model.stretches(),
+                      .mapFormat = frame.model.mapFormat()};
     // Where positions are all that counts no normal is cheaper than the limit normal.
     if (pass == Pass::shadow || pass == Pass::cracks) c.normal = NormalKind::limit;
     if (pass == Pass::cracks) c.show = kShowCracks;

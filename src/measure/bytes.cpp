@@ -13,39 +13,7 @@ constexpr std::uint64_t kPatchPoints = 16 * (4 + 16);        ///< an index and a
 constexpr std::uint64_t kTexPatchPoints = 16 * (4 + 8);
 constexpr std::uint64_t kHeightTexels = 5 * 4; ///< the height and its central differences, four texels each
 
-/// Bytes of one level of a map.
-std::uint64_t levelBytes(MapFormat format, std::uint64_t width, std::uint64_t height) {
-    switch (format) {
-    case MapFormat::real: return width * height * 4;
-    case MapFormat::half:
-    case MapFormat::unorm16: return width * height * 2;
-    case MapFormat::unorm8: return width * height;
-    case MapFormat::bc4: return (width + 3) / 4 * ((height + 3) / 4) * 8;
-    }
-    return 0;
-}
-
 } // namespace
-
-std::string nameOf(MapFormat format) {
-    switch (format) {
-    case MapFormat::real: return "float";
-    case MapFormat::half: return "half";
-    case MapFormat::unorm16: return "16 bit";
-    case MapFormat::unorm8: return "8 bit";
-    case MapFormat::bc4: return "BC4";
-    }
-    return "";
-}
-
-std::uint64_t mapBytes(MapFormat format, int width, int height) {
-    std::uint64_t bytes = levelBytes(format, std::uint64_t(width), std::uint64_t(height));
-    for (std::uint32_t level = 1; (width > 1 || height > 1) && level < kMostMapLevels; ++level) {
-        width = std::max(1, width / 2), height = std::max(1, height / 2);
-        bytes += levelBytes(format, std::uint64_t(width), std::uint64_t(height));
-    }
-    return bytes;
-}
 
 std::uint64_t residentBytes(const DenseLayout& layout, const MeshCounts& counts) {
     return layout.vertexBytes() * counts.vertices + std::uint64_t(layout.indexBytes) * 3 * counts.triangles;

@@ -47,8 +47,8 @@ const HeightMap& Contest::map(int side, MapFormat format) {
     if (found != maps_.end()) return found->second;
     const HeightMap& whole = subject_.height;
     const int rows = std::max(1, int(std::lround(double(side) * whole.height / whole.width)));
-    HeightMap map =
-        format == MapFormat::real ? resampled(whole, side, rows) : decodedMap(this->map(side, MapFormat::real), format);
+    const HeightMap real = format == MapFormat::real ? resampled(whole, side, rows) : this->map(side, MapFormat::real);
+    HeightMap map = inFormat(real, format);
     return maps_.emplace(std::pair(side, format), std::move(map)).first->second;
 }
 

@@ -89,17 +89,6 @@ Comparison compareResults(const Results& before, const Results& after, double to
 
 // --- the model of bytes -------------------------------------------------------------------------------------------
 
-/// How the texels of a height map are kept. Integers and blocks span the map's own range.
-enum class MapFormat { real, half, unorm16, unorm8, bc4 };
-std::string nameOf(MapFormat format);
-
-/// With mips down to one texel, as Model keeps them.
-std::uint64_t mapBytes(MapFormat format, int width, int height);
-/// The heights that a reader of the format sees.
-HeightMap decodedMap(const HeightMap& map, MapFormat format);
-/// 16 values 0..1, row after row, as 8 bytes (Khronos Data Format Specification 1.3, section 20.3, "BC4 unsigned").
-std::array<std::uint8_t, 8> encodeBc4(std::span<const float, 16> values);
-std::array<float, 16> decodeBc4(std::span<const std::uint8_t, 8> block);
 /// The same map of another size: each texel is the mean of what it covers.
 HeightMap resampled(const HeightMap& map, int width, int height);
 

@@ -35,8 +35,8 @@ Box<V> patchBox(std::span<const std::uint32_t> indices, std::span<const V> point
 
 } // namespace
 
-HeightPyramid::HeightPyramid(const HeightMap& map)
-    : size_(map.width, map.height), wrap_(map.wrap), mid_(map.mid), scale_(map.scale) {
+HeightPyramid::HeightPyramid(const HeightMap& map, float roundOff)
+    : size_(map.width, map.height), roundOff_(roundOff), wrap_(map.wrap), mid_(map.mid), scale_(map.scale) {
     Level base{(map.width + kBlock - 1) / kBlock, (map.height + kBlock - 1) / kBlock, {}};
     base.blocks.assign(std::size_t(base.width) * std::size_t(base.height), {INFINITY, -INFINITY, 0, 0});
     const auto texelAt = [&](int x, int y) {
@@ -66,8 +66,10 @@ HeightPyramid::HeightPyramid(const HeightMap& map)
 }
 
 Range HeightPyramid::heights(const Range& stored) const {
-    const auto a = float(scale_ * (double(stored.lowest) - mid_)), b = float(scale_ * (double(stored.highest) - mid_));
-    const dvec2 slope = std::abs(scale_) * dvec2(size_) * dvec2(stored.slopeS, stored.slopeT);
+    const auto a = float(scale_ * (double(stored.lowest) - double(roundOff_) - mid_)),
+               b = float(scale_ * (double(stored.highest) + double(roundOff_) - mid_));
+    // Two texels of a mip lie twice as far apart or more: what both are off counts once here.
+    const dvec2 slope = std::abs(scale_) * dvec2(size_) * (dvec2(stored.slopeS, stored.slopeT) + double(roundOff_));
     return {std::min(a, b), std::max(a, b), float(slope.x), float(slope.y)};
 }
 

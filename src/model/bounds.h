@@ -20,7 +20,8 @@ struct Range {
 class HeightPyramid {
 public:
     HeightPyramid() = default;
-    explicit HeightPyramid(const HeightMap& map);
+    /// `roundOff`: how far a mip's texel may be from the mean that it stands for.
+    explicit HeightPyramid(const HeightMap& map, float roundOff = 0);
 
     /// Bounds of h in cage units over a box of texture coordinates, with all texels that its lookups read.
     [[nodiscard]] Range range(const vec2& lower, const vec2& upper) const;
@@ -34,6 +35,7 @@ private:
     [[nodiscard]] Range heights(const Range& stored) const;
 
     ivec2 size_{0};
+    float roundOff_ = 0;
     Wrap wrap_ = Wrap::repeat;
     double mid_ = 0, scale_ = 1;
     std::vector<Level> levels_; ///< the last one is a single block

@@ -59,32 +59,6 @@ AlbedoMips albedoMips(const Image& image) {
     return mips;
 }
 
-/// A map and its mips one after another, each the mean of four texels of the one before, or of what there is.
-struct HeightMips {
-    std::vector<float> texels;
-    std::vector<std::uint32_t> firsts;
-};
-
-HeightMips heightMips(const HeightMap& map) {
-    HeightMips mips{map.texels, {0}};
-    int width = map.width, height = map.height;
-    while ((width > 1 || height > 1) && mips.firsts.size() < kMostMapLevels) {
-        const std::size_t from = mips.firsts.back();
-        const int w = std::max(width / 2, 1), h = std::max(height / 2, 1);
-        mips.firsts.push_back(std::uint32_t(mips.texels.size()));
-        const auto at = [&](int x, int y) {
-            return mips.texels[from + std::size_t(std::min(y, height - 1)) * std::size_t(width) +
-                               std::size_t(std::min(x, width - 1))];
-        };
-        for (int y = 0; y < h; ++y)
-            for (int x = 0; x < w; ++x)
-                mips.texels.push_back(0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
-                                               at(2 * x + 1, 2 * y + 1)));
-        width = w, height = h;
-    }
-    return mips;
-}
-
 Texture emptyTexture(Device& device, VkFormat format) {
     const std::byte one[4] = {std::byte{0}, std::byte{0}, std::byte{0}, std::byte{0}};
     return uploadTexture(device, {.name = "empty", .format = format}, one, 4);
@@ -94,11 +68,11 @@ Texture emptyTexture(Device& device, VkFormat format) {
 
 Model::Model(Device& device, const ModelDesc& desc) {
     const std::uint64_t before = device.allocatedBytes();
+    uploadMaps(device, desc);
     if (desc.dense != nullptr)
         uploadDense(device, *desc.dense);
     else
         uploadSurface(device, desc);
-    uploadMaps(device, desc);
     byteCount_ = device.allocatedBytes() - before;
 }
 
@@ -123,8 +97,8 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     words_ = uploadTexels(device, {.name = "words"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(words)));
 
     const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
-    heightPyramid_ =
-        std::make_unique<HeightPyramid>(desc.height != nullptr ? HeightPyramid(*desc.height) : HeightPyramid());
+    heightPyramid_ = std::make_unique<HeightPyramid>(
+        desc.height != nullptr ? HeightPyramid(*desc.height, mapRoundOff_) : HeightPyramid());
     faceReaches_ = relief::faceReaches(s, desc.height, *heightPyramid_);
     faceBounds_ = relief::faceBounds(s, refined, faceReaches_);
     if (enclosesVolume(s))
@@ -180,18 +154,21 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
 void Model::uploadMaps(Device& device, const ModelDesc& desc) {
     if (desc.height != nullptr) {
         const HeightMap& map = *desc.height;
-        if (map.texels.size() * 4 / 3 > device.traits().maxTexelBufferElements)
-            fail(Failure::device, "a height map of {} x {} has more texels than {} reads ({})", map.width, map.height,
-                 device.traits().name, device.traits().maxTexelBufferElements);
-        const HeightMips mips = heightMips(map);
-        heights_ =
-            uploadTexels(device, {.name = "height map"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(mips.texels)));
-        mapFirsts_ = mips.firsts;
+        const std::uint64_t most = 4ull * device.traits().maxTexelBufferElements;
+        if (mapBytes(map.format, map.width, map.height) > most)
+            fail(Failure::device, "a height map of {} x {} takes {} with its mips; {} reads {}", map.width, map.height,
+                 humanBytes(mapBytes(map.format, map.width, map.height)), device.traits().name, humanBytes(most));
+        const MapWords words = wordsOf(map);
+        heights_ = uploadWords(device, "height map", words.words);
+        mapFirsts_ = words.firsts;
+        mapRoundOff_ = words.roundOff;
+        mapFormat_ = map.format;
         mapSize_ = {map.width, map.height};
-        heightMid_ = float(map.mid), heightScale_ = float(map.scale), heightReach_ = float(map.reach());
+        const WordScale scale = wordScale(map);
+        heightMid_ = float(scale.mid), heightScale_ = float(scale.scale), heightReach_ = float(map.reach());
         wrap_ = map.wrap;
     } else {
-        heights_ = uploadTexels(device, {.name = "no height map"}, VK_FORMAT_R32_SFLOAT, {});
+        heights_ = uploadWords(device, "no height map", {});
     }
     if (desc.albedo != nullptr) {
         const AlbedoMips mips = albedoMips(*desc.albedo);

@@ -91,6 +91,7 @@ public:
     [[nodiscard]] bool hasHeight() const { return mapSize_.x > 0; }
     [[nodiscard]] bool hasAlbedoMap() const { return hasAlbedo_; }
     [[nodiscard]] Wrap wrap() const { return wrap_; }
+    [[nodiscard]] MapFormat mapFormat() const { return mapFormat_; }
     /// Bytes of the height map on the device, with its mips.
     [[nodiscard]] std::uint64_t heightBytes() const { return hasHeight() ? heights_.buffer.bytes : 0; }
     /// Bytes resident on the device: buffers and textures.
@@ -116,13 +117,14 @@ private:
     std::vector<Bounds> faceBounds_;
     std::vector<float> faceReaches_;
     std::vector<NormalBounds> normalBounds_;
-    std::vector<std::uint32_t> mapFirsts_; ///< where the texels of each level begin
+    std::vector<std::uint32_t> mapFirsts_; ///< where the words of each level begin
     std::vector<bool> edgeIsHalf_, patchIsRegular_;
     std::vector<std::uint32_t> cornerFlags_;
     std::uint32_t indexCount_ = 0, vertexCount_ = 0;
     int sideCount_ = 4;
     glm::ivec2 mapSize_{0};
-    float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0;
+    float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0, mapRoundOff_ = 0;
+    MapFormat mapFormat_ = MapFormat::real;
     Wrap wrap_ = Wrap::repeat;
     bool isDense_ = false, hasTexCoords_ = false, hasAlbedo_ = false;
     std::uint64_t byteCount_ = 0;

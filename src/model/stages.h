@@ -20,7 +20,7 @@ struct PushConstants {
 /// Set 0 of every pass (kBind...).
 PipelineLayoutDesc passLayout();
 
-/// Specialization constants 0..11 in the order of the shaders' constant_id.
+/// Specialization constants 0..12 in the order of the shaders' constant_id.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
@@ -32,11 +32,13 @@ struct ShaderConstants {
     bool isCommon = false;  ///< dicing: insides in bicubic patches, triangles between inner samples
     bool stretches = false; ///< heights grow with the surface
     bool hasMotion = false; ///< layers: the surface was in another pose before
+    MapFormat mapFormat = MapFormat::real;
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
         return {isGenericBasis, hasTexCoords, hasHeight,    std::uint32_t(normal),
                 wantsTexCoords, show,         hasAlbedoMap, groupSize,
-                hasMips,        isCommon,     stretches,    hasMotion};
+                hasMips,        isCommon,     stretches,    hasMotion,
+                std::uint32_t(mapFormat)};
     }
 };
 
@@ -103,7 +105,8 @@ inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
     return {.hasTexCoords = model.hasTexCoords(),
             .hasHeight = model.hasHeight(),
             .normal = normal,
-            .stretches = model.stretches()};
+            .stretches = model.stretches(),
+            .mapFormat = model.mapFormat()};
 }
 
 /// Two triangles a cell, row after row: the first rows of a larger grid with as many columns.

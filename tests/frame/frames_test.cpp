@@ -4,6 +4,7 @@
 #include <random>
 
 #include "device.h"
+#include "maps.h"
 #include "meshes.h"
 
 namespace relief::test {
@@ -166,6 +167,37 @@ INSTANTIATE_TEST_SUITE_P(AllCages, Frames, ::testing::ValuesIn(cases()), [](cons
     std::erase_if(name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; });
     return name;
 });
+
+class MapFormats : public OnDevice {};
+
+TEST_F(MapFormats, agreeWithTheReferenceThatReadsTheSame) {
+    const Case c{"torus", torusWithSeams(), {.isolation = 3}};
+    for (const MapFormat format : kMapFormats)
+        for (const int side : {37, 64}) {
+            const HeightMap map = inFormat(waves(side, side - 3), format);
+            const Errors e = compare(c, map, false);
+            EXPECT_LT(e.h, 2e-5) << nameOf(format);
+            EXPECT_LT(e.q, 2e-5) << nameOf(format);
+            EXPECT_LT(e.normal, 0.01) << nameOf(format);
+        }
+}
+
+// On a flat cage heights are all that points have: here of the first mip alone.
+TEST_F(MapFormats, haveTheirMipsOnTheDevice) {
+    const Cage cage = boundaryGrid(2, 2);
+    const Surface surface = buildSurface(cage, {});
+    Dicer dicer(device());
+    for (const MapFormat format : kMapFormats) {
+        const HeightMap map = inFormat(waves(37, 22), format);
+        const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+        EXPECT_EQ(model.heightBytes(), mapBytes(format, 37, 22)) << nameOf(format);
+        const HeightMap mip = levelOf(map, wordsOf(map), 1);
+        const EdgeRates rates{model.uniformRates(8), Spacing::equal, std::vector<float>(model.cornerCount(), 1)};
+        const DenseMesh mesh = dicer.diceToHost(model, rates, {.wantsTexCoords = true});
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            EXPECT_NEAR(mesh.positions[i].y, sampleHeight(mip, dvec2(mesh.texCoords[i])).h, 2e-5) << nameOf(format);
+    }
+}
 
 class FileFrames : public OnDevice, public ::testing::WithParamInterface<const char*> {};
 

@@ -4,6 +4,7 @@
 
 #include "device.h"
 #include "frame/passes.h"
+#include "maps.h"
 #include "meshes.h"
 #include "support.h"
 
@@ -48,6 +49,23 @@ TEST_F(Rates, boundsHoldEveryDisplacedPoint) {
             const dvec3 q(results[i].q);
             EXPECT_TRUE(glm::all(glm::greaterThan(q, box.lower - 1e-5)) && glm::all(glm::lessThan(q, box.upper + 1e-5)))
                 << named.name << " face " << queries[i].face;
+        }
+    }
+}
+
+// Mips of few bits may lie outside of the texels that they stand for.
+TEST_F(Rates, boundsHoldTheMipsOfEveryFormat) {
+    for (const MapFormat format : kMapFormats) {
+        const Subject s{boundaryGrid(3, 3), inFormat(waves(50, 50), format)};
+        for (const float level : {0.0f, 1.0f, 2.4f, 5.0f}) {
+            const EdgeRates rates{s.model.uniformRates(12), Spacing::equal,
+                                  std::vector<float>(s.model.cornerCount(), level)};
+            Bounds whole;
+            for (const Bounds& box : s.model.faceBounds()) whole.add(box.lower), whole.add(box.upper);
+            for (const vec3& p : dicer().diceToHost(s.model, rates).positions) {
+                EXPECT_GT(double(p.y), whole.lower.y - 1e-5) << nameOf(format) << " level " << level;
+                EXPECT_LT(double(p.y), whole.upper.y + 1e-5) << nameOf(format) << " level " << level;
+            }
         }
     }
 }

@@ -7,17 +7,6 @@
 namespace relief::test {
 namespace {
 
-TEST(Bytes, ofMapsCountEveryMip) {
-    // 8 x 4 texels, then 4 x 2, 2 x 1, 1 x 1: 32 + 8 + 2 + 1.
-    EXPECT_EQ(mapBytes(MapFormat::real, 8, 4), 4u * 43);
-    EXPECT_EQ(mapBytes(MapFormat::half, 8, 4), 2u * 43);
-    EXPECT_EQ(mapBytes(MapFormat::unorm16, 8, 4), 2u * 43);
-    EXPECT_EQ(mapBytes(MapFormat::unorm8, 8, 4), 43u);
-    EXPECT_EQ(mapBytes(MapFormat::bc4, 8, 4), 8u * (2 + 1 + 1 + 1)); // blocks of 4 x 4, begun ones whole
-    EXPECT_EQ(mapBytes(MapFormat::unorm8, 5, 3), 15u + 2 + 1);
-    EXPECT_EQ(mapBytes(MapFormat::unorm8, 1, 1), 1u);
-}
-
 TEST(Bytes, ofDenseMeshesAreThoseOfVerticesAndIndices) {
     EXPECT_EQ(residentBytes(kRawLayout, {100, 180}), 100u * 32 + 180 * 12);
     EXPECT_EQ(residentBytes(kRawLayout, {100, 180}), denseBytes(100, 180));
@@ -52,69 +41,7 @@ TEST(Traffic, ofASurfaceHasItsDicedMeshTwice) {
     EXPECT_EQ(diced.cacheless, 10 * evaluationBytes(4, true) + 2 * (10 * 32 + 12 * 12));
 }
 
-// --- formats
-
-HeightMap waves(int width, int height) {
-    std::vector<float> texels;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) texels.push_back(float(0.3 * std::sin(0.4 * x) + 0.2 * std::cos(0.3 * y)));
-    return makeHeightMap(width, height, texels, 0.1, 2, Wrap::clamp);
-}
-
-double worstOf(const HeightMap& a, const HeightMap& b) {
-    double worst = 0;
-    for (std::size_t i = 0; i < a.texels.size(); ++i)
-        worst = std::max(worst, std::abs(double(a.texels[i]) - b.texels[i]));
-    return worst;
-}
-
-TEST(Formats, areOffByNoMoreThanTheirSteps) {
-    const HeightMap map = waves(37, 22);
-    const double range = double(map.highest) - map.lowest;
-    const auto off = [&](MapFormat format) { return worstOf(map, decodedMap(map, format)); };
-    EXPECT_EQ(off(MapFormat::real), 0);
-    EXPECT_LE(off(MapFormat::half), 0.5 * 0x1p-11);
-    EXPECT_LE(off(MapFormat::unorm16), 0.51 * range / 65535);
-    EXPECT_LE(off(MapFormat::unorm8), 0.51 * range / 255);
-    EXPECT_GT(off(MapFormat::unorm8), 0.4 * range / 255);
-    EXPECT_LE(off(MapFormat::bc4), 0.05 * range); // a fourteenth of what a block spans
-    EXPECT_GT(off(MapFormat::bc4), 0);
-    const HeightMap decoded = decodedMap(map, MapFormat::unorm16);
-    EXPECT_EQ(decoded.mid, 0.1);
-    EXPECT_EQ(decoded.scale, 2);
-    EXPECT_EQ(decoded.wrap, Wrap::clamp);
-}
-
-TEST(Formats, keepAFlatMap) {
-    const HeightMap flat = makeHeightMap(5, 5, std::vector<float>(25, 0.75f), 0, 1, Wrap::repeat);
-    for (const MapFormat format : {MapFormat::half, MapFormat::unorm16, MapFormat::unorm8, MapFormat::bc4})
-        EXPECT_EQ(worstOf(flat, decodedMap(flat, format)), 0) << nameOf(format);
-}
-
-TEST(Bc4, hasTheBitsOfTheSpecification) {
-    // Two end points, then three bits a texel, the first texel lowest; red0 > red1: six values between.
-    const std::array<std::uint8_t, 8> block{255, 0, 0b10'001'000, 0, 0, 0, 0, 0};
-    const std::array<float, 16> values = decodeBc4(block);
-    EXPECT_FLOAT_EQ(values[0], 1);        // 0: red0
-    EXPECT_FLOAT_EQ(values[1], 0);        // 1: red1
-    EXPECT_FLOAT_EQ(values[2], 6.0f / 7); // 2: the first between
-    const std::array<std::uint8_t, 8> other{0, 255, 0b10'111'110, 0, 0, 0, 0, 0};
-    const std::array<float, 16> fewer = decodeBc4(other);
-    EXPECT_FLOAT_EQ(fewer[0], 0);        // 6: zero
-    EXPECT_FLOAT_EQ(fewer[1], 1);        // 7: one
-    EXPECT_FLOAT_EQ(fewer[2], 1.0f / 5); // 2: of four between
-}
-
-TEST(Bc4, isExactForItsOwnValuesAndNearForRamps) {
-    std::array<float, 16> own;
-    for (std::size_t i = 0; i < 16; ++i) own[i] = (float(i % 8) * 224 + 28 * 0) / 7 / 255; // 0, 32/255, ... 224/255
-    const std::array<float, 16> back = decodeBc4(encodeBc4(own));
-    for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(back[i], own[i], 1e-6) << i;
-    std::array<float, 16> ramp;
-    for (std::size_t i = 0; i < 16; ++i) ramp[i] = 0.2f + 0.02f * float(i);
-    const std::array<float, 16> near = decodeBc4(encodeBc4(ramp));
-    for (std::size_t i = 0; i < 16; ++i) EXPECT_NEAR(near[i], ramp[i], 0.3 / 14 + 2.0 / 255) << i;
-}
+// --- maps of other sizes
 
 TEST(Resampling, keepsTheMeanAndRamps) {
     std::vector<float> texels;

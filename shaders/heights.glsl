@@ -1,0 +1,103 @@
+// Heights from the map: h(s,t) with central differences, between mip levels.
+#ifndef RELIEF_HEIGHTS_GLSL
+#define RELIEF_HEIGHTS_GLSL
+
+#include "scene.glsl"
+
+layout(constant_id = 12) const uint kMapFormat = kMapReal; // kMap...
+
+layout(set = 0, binding = kBindHeight) uniform usamplerBuffer heightWords;
+
+struct HeightSample {
+    float h;
+    vec2 gradient;  // (h_s, h_t)
+};
+
+// The map's columns or rows first - 1 to first + 2.
+ivec4 wrapped(int first, int size) {
+    ivec4 at = first + ivec4(-1, 0, 1, 2);
+    if (scene.mapRepeats == 0u) return clamp(at, 0, size - 1);
+    // The first one falls anywhere, the others follow it.
+    int start = at.x - size * int(floor(float(at.x) / float(size)));
+    at = start + ivec4(0, 1, 2, 3);
+    return size < 4 ? at % size : at - size * ivec4(greaterThanEqual(at, ivec4(size)));
+}
+
+// Texels are fetched and weighed here, not by the sampler, whose fractions are 8 bits on many devices: stairs in h_s.
+struct HeightLevel {
+    ivec2 size;
+    int first; // word
+};
+
+uint heightWord(int i) { return texelFetch(heightWords, i).x; }
+
+// Code i of a block, and the number that it stands for.
+float blockNumber(uint word0, uint word1, int i) {
+    uint codes = i < 8 ? word0 >> 16 | word1 << 16 : word1 >> 8; // eight of them are 24 bits
+    int code = int(codes >> (3 * (i & 7))) & 7;
+    float red0 = float(word0 & 255u), red1 = float(word0 >> 8 & 255u);
+    if (code < 2) return code == 0 ? red0 : red1;
+    bool hasEight = red0 > red1;
+    if (!hasEight && code > 5) return code == 6 ? 0.0 : 255.0;
+    precise float share = float(code - 1) * (hasEight ? 1.0 / 7.0 : 1.0 / 5.0);
+    precise float number = red0 + share * (red1 - red0);
+    return number;
+}
+
+float texel(HeightLevel level, int column, int row) {
+    if (kMapFormat == kMapBc4) {
+        int block = level.first + 2 * ((row >> 2) * ((level.size.x + 3) >> 2) + (column >> 2));
+        return blockNumber(heightWord(block), heightWord(block + 1), 4 * (row & 3) + (column & 3));
+    }
+    int i = row * level.size.x + column;
+    if (kMapFormat == kMapReal) return uintBitsToFloat(heightWord(level.first + i));
+    if (kMapFormat == kMapUnorm8) return float(heightWord(level.first + (i >> 2)) >> (8 * (i & 3)) & 255u);
+    uint number = heightWord(level.first + (i >> 1)) >> (16 * (i & 1)) & 0xffffu;
+    return kMapFormat == kMapHalf ? unpackHalf2x16(number).x : float(number);
+}
+
+// h bilinear; h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569), h_t likewise: twelve texels, of
+// which the four around the point serve both. t points up, rows go down.
+HeightSample sampleLevel(vec2 st, uint number) {
+    HeightLevel l = HeightLevel(max(scene.mapSize >> int(number), 1), int(scene.mapFirsts[number]));
+    precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(l.size) - 0.5;
+    vec2 whole = floor(x);
+    vec2 f = x - whole;
+    ivec4 c = wrapped(int(whole.x), l.size.x), r = wrapped(int(whole.y), l.size.y);
+    vec4 below = vec4(texel(l, c.x, r.y), texel(l, c.y, r.y), texel(l, c.z, r.y), texel(l, c.w, r.y));
+    vec4 above = vec4(texel(l, c.x, r.z), texel(l, c.y, r.z), texel(l, c.z, r.z), texel(l, c.w, r.z));
+    vec2 low = vec2(texel(l, c.y, r.x), texel(l, c.z, r.x));
+    vec2 high = vec2(texel(l, c.y, r.w), texel(l, c.z, r.w));
+
+    // Rows: value at x in each of the four rows; and the difference across two texels in the middle two.
+    precise float rowLow = mix(low.x, low.y, f.x), row0 = mix(below.y, below.z, f.x);
+    precise float row1 = mix(above.y, above.z, f.x), rowHigh = mix(high.x, high.y, f.x);
+    precise float across0 = mix(below.z, below.w, f.x) - mix(below.x, below.y, f.x);
+    precise float across1 = mix(above.z, above.w, f.x) - mix(above.x, above.y, f.x);
+    precise float down = mix(row1, rowHigh, f.y) - mix(rowLow, row0, f.y);
+
+    HeightSample s;
+    s.h = scene.heightScale * (mix(row0, row1, f.y) - scene.heightMid);
+    vec2 perUnit = 0.5 * scene.heightScale * vec2(l.size);
+    s.gradient = vec2(mix(across0, across1, f.y), -down) * perUnit;
+    return s;
+}
+
+// Between two levels of the map.
+HeightSample sampleHeight(vec2 st, float level) {
+    if (!kHasMips) return sampleLevel(st, 0u);
+    float last = float(scene.mapLevels - 1u);
+    level = clamp(level, 0.0, last);
+    float lower = floor(level);
+    precise float f = level - lower;
+    HeightSample s = HeightSample(0.0, vec2(0));
+    for (uint i = 0u; i < (f > 0.0 ? 2u : 1u); ++i) {
+        precise float weight = i == 0u ? 1.0 - f : f;
+        HeightSample one = sampleLevel(st, uint(lower) + i);
+        precise float h = s.h + weight * one.h;
+        s.h = h;
+        s.gradient += weight * one.gradient;
+    }
+    return s;
+}
+#endif

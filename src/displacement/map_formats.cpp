@@ -1,0 +1,250 @@
+// How height maps are kept on the device: formats, mips, and what they leave of the values.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+#include <glm/gtc/packing.hpp>
+
+#include "displacement/displacement.h"
+
+namespace relief {
+namespace {
+
+/// The eight values of a BC4 block: its two end points, and what lies between.
+std::array<float, 8> paletteOf(std::uint8_t red0, std::uint8_t red1) {
+    const float a = float(red0) / 255, b = float(red1) / 255;
+    std::array<float, 8> palette{a, b};
+    if (red0 > red1) {
+        for (int i = 1; i < 7; ++i) palette[std::size_t(i) + 1] = (float(7 - i) * a + float(i) * b) / 7;
+    } else {
+        for (int i = 1; i < 5; ++i) palette[std::size_t(i) + 1] = (float(5 - i) * a + float(i) * b) / 5;
+        palette[6] = 0;
+        palette[7] = 1;
+    }
+    return palette;
+}
+
+std::size_t nearestIn(const std::array<float, 8>& palette, float value) {
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < palette.size(); ++i)
+        if (std::abs(palette[i] - value) < std::abs(palette[nearest] - value)) nearest = i;
+    return nearest;
+}
+
+double errorOf(std::uint8_t red0, std::uint8_t red1, std::span<const float, 16> values) {
+    const std::array<float, 8> palette = paletteOf(red0, red1);
+    double error = 0;
+    for (const float value : values) error += std::pow(palette[nearestIn(palette, value)] - value, 2.0);
+    return error;
+}
+
+std::uint8_t byteOf(float value) { return std::uint8_t(std::lround(255 * std::clamp(value, 0.0f, 1.0f))); }
+
+/// Blocks of values 0..1; those at the border repeat its texels.
+std::vector<std::uint8_t> blocksOf(std::span<const float> unit, int width, int height) {
+    std::vector<std::uint8_t> blocks;
+    for (int y = 0; y < height; y += 4)
+        for (int x = 0; x < width; x += 4) {
+            std::array<float, 16> values;
+            for (int i = 0; i < 16; ++i) {
+                const int row = std::min(y + i / 4, height - 1), column = std::min(x + i % 4, width - 1);
+                values[std::size_t(i)] = unit[std::size_t(row) * std::size_t(width) + std::size_t(column)];
+            }
+            const std::array<std::uint8_t, 8> block = encodeBc4(values);
+            blocks.insert(blocks.end(), block.begin(), block.end());
+        }
+    return blocks;
+}
+
+std::vector<float> valuesOf(std::span<const std::uint8_t> blocks, int width, int height) {
+    std::vector<float> unit(std::size_t(width) * std::size_t(height));
+    std::size_t next = 0;
+    for (int y = 0; y < height; y += 4)
+        for (int x = 0; x < width; x += 4, next += 8) {
+            const std::array<float, 16> values = decodeBc4(blocks.subspan(next).first<8>());
+            for (int row = y; row < std::min(y + 4, height); ++row)
+                for (int column = x; column < std::min(x + 4, width); ++column)
+                    unit[std::size_t(row) * std::size_t(width) + std::size_t(column)] =
+                        values[std::size_t(4 * (row - y) + column - x)];
+        }
+    return unit;
+}
+
+/// Numbers that stand for the range of a map: 0 to this many.
+float stepsOf(MapFormat format) { return format == MapFormat::unorm16 ? 65535 : 255; }
+
+std::size_t bitsOf(MapFormat format) {
+    return format == MapFormat::real ? 32 : format == MapFormat::unorm8 ? 8 : 16;
+}
+
+/// A value as the map's format keeps it, blocks aside, and what a reader makes of that.
+std::uint32_t packed(const HeightMap& map, float value) {
+    if (map.format == MapFormat::real) return std::bit_cast<std::uint32_t>(value);
+    if (map.format == MapFormat::half) return glm::packHalf1x16(value);
+    const float unit = std::clamp((value - map.base) / map.range, 0.0f, 1.0f);
+    return std::uint32_t(std::lround(unit * stepsOf(map.format)));
+}
+
+float unpacked(const HeightMap& map, std::uint32_t bits) {
+    if (map.format == MapFormat::real) return std::bit_cast<float>(bits);
+    if (map.format == MapFormat::half) return glm::unpackHalf1x16(std::uint16_t(bits));
+    return map.base + map.range * (float(bits) / stepsOf(map.format));
+}
+
+struct MipLevel {
+    int width = 0, height = 0;
+    std::vector<float> texels;
+};
+
+MipLevel halved(const MipLevel& fine) {
+    MipLevel coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), {}};
+    const auto at = [&](int x, int y) {
+        return fine.texels[std::size_t(std::min(y, fine.height - 1)) * std::size_t(fine.width) +
+                           std::size_t(std::min(x, fine.width - 1))];
+    };
+    for (int y = 0; y < coarse.height; ++y)
+        for (int x = 0; x < coarse.width; ++x)
+            coarse.texels.push_back(0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
+                                             at(2 * x + 1, 2 * y + 1)));
+    return coarse;
+}
+
+std::vector<float> unitOf(const HeightMap& map, std::vector<float> texels) {
+    for (float& texel : texels) texel = (texel - map.base) / map.range;
+    return texels;
+}
+
+std::vector<float> fromUnit(const HeightMap& map, std::vector<float> unit) {
+    for (float& value : unit) value = map.base + map.range * value;
+    return unit;
+}
+
+/// Appends a level and returns what its readers find.
+std::vector<float> appendLevel(MapWords& to, const HeightMap& map, const MipLevel& level) {
+    const std::size_t first = to.words.size();
+    to.firsts.push_back(std::uint32_t(first));
+    if (map.format == MapFormat::bc4) {
+        const bool isWhole = first == 0 && !map.blocks.empty();
+        const std::vector<std::uint8_t> blocks =
+            isWhole ? map.blocks : blocksOf(unitOf(map, level.texels), level.width, level.height);
+        to.words.resize(first + blocks.size() / 4);
+        std::memcpy(&to.words[first], blocks.data(), blocks.size());
+        return fromUnit(map, valuesOf(blocks, level.width, level.height));
+    }
+    const std::size_t bits = bitsOf(map.format), perWord = 32 / bits;
+    to.words.resize(first + (level.texels.size() + perWord - 1) / perWord, 0);
+    std::vector<float> read;
+    read.reserve(level.texels.size());
+    for (std::size_t i = 0; i < level.texels.size(); ++i) {
+        const std::uint32_t texel = packed(map, level.texels[i]);
+        to.words[first + i / perWord] |= texel << (bits * (i % perWord));
+        read.push_back(unpacked(map, texel));
+    }
+    return read;
+}
+
+/// Bytes of one level: whole words.
+std::uint64_t levelBytes(MapFormat format, std::uint64_t width, std::uint64_t height) {
+    if (format == MapFormat::bc4) return (width + 3) / 4 * ((height + 3) / 4) * 8;
+    return (width * height * bitsOf(format) + 31) / 32 * 4;
+}
+
+} // namespace
+
+std::string nameOf(MapFormat format) {
+    switch (format) {
+    case MapFormat::real: return "float";
+    case MapFormat::half: return "half";
+    case MapFormat::unorm16: return "16 bit";
+    case MapFormat::unorm8: return "8 bit";
+    case MapFormat::bc4: return "BC4";
+    }
+    return "";
+}
+
+std::array<std::uint8_t, 8> encodeBc4(std::span<const float, 16> values) {
+    const auto [lowest, highest] = std::ranges::minmax(values);
+    std::uint8_t best[2] = {byteOf(highest), byteOf(lowest)};
+    double least = errorOf(best[0], best[1], values);
+    // End points a little inside of the range often serve the values between better.
+    const int low = byteOf(lowest), high = byteOf(highest), reach = std::min(4, (high - low) / 4);
+    for (int a = -1; a <= reach; ++a)
+        for (int b = -1; b <= reach; ++b) {
+            const auto red0 = std::uint8_t(std::clamp(high - a, 0, 255)),
+                       red1 = std::uint8_t(std::clamp(low + b, 0, 255));
+            const double error = errorOf(red0, red1, values);
+            if (error < least) least = error, best[0] = red0, best[1] = red1;
+        }
+    const std::array<float, 8> palette = paletteOf(best[0], best[1]);
+    std::uint64_t bits = 0; // three a value, the first value lowest
+    for (std::size_t i = 0; i < 16; ++i) bits |= std::uint64_t(nearestIn(palette, values[i])) << (3 * i);
+    std::array<std::uint8_t, 8> block{best[0], best[1]};
+    for (std::size_t i = 0; i < 6; ++i) block[2 + i] = std::uint8_t(bits >> (8 * i));
+    return block;
+}
+
+std::array<float, 16> decodeBc4(std::span<const std::uint8_t, 8> block) {
+    const std::array<float, 8> palette = paletteOf(block[0], block[1]);
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < 6; ++i) bits |= std::uint64_t(block[2 + i]) << (8 * i);
+    std::array<float, 16> values;
+    for (std::size_t i = 0; i < 16; ++i) values[i] = palette[bits >> (3 * i) & 7];
+    return values;
+}
+
+HeightMap inFormat(const HeightMap& map, MapFormat format) {
+    HeightMap kept = map;
+    kept.format = format;
+    kept.base = 0, kept.range = 1;
+    kept.blocks.clear();
+    if (format == MapFormat::real) return kept;
+    constexpr float kMostHalf = 65504;
+    if (format == MapFormat::half && std::max(-map.lowest, map.highest) > kMostHalf)
+        fail(Failure::input, "the height map's values go to {}; halves hold up to {}: keep it as float or unorm16",
+             std::max(-map.lowest, map.highest), kMostHalf);
+    if (format != MapFormat::half) {
+        kept.base = map.lowest;
+        if (map.highest > map.lowest) kept.range = map.highest - map.lowest;
+    }
+    if (format == MapFormat::bc4) {
+        kept.blocks = blocksOf(unitOf(kept, map.texels), map.width, map.height);
+        kept.texels = fromUnit(kept, valuesOf(kept.blocks, map.width, map.height));
+    } else {
+        for (float& texel : kept.texels) texel = unpacked(kept, packed(kept, texel));
+    }
+    const auto [lowest, highest] = std::ranges::minmax(kept.texels);
+    kept.lowest = lowest, kept.highest = highest;
+    return kept;
+}
+
+MapWords wordsOf(const HeightMap& map) {
+    MapWords words;
+    words.words.reserve(mapBytes(map.format, map.width, map.height) / 4);
+    MipLevel level{map.width, map.height, map.texels};
+    appendLevel(words, map, level);
+    while ((level.width > 1 || level.height > 1) && words.firsts.size() < kMostMapLevels) {
+        level = halved(level);
+        const std::vector<float> read = appendLevel(words, map, level);
+        for (std::size_t i = 0; i < read.size(); ++i)
+            words.roundOff = std::max(words.roundOff, std::abs(read[i] - level.texels[i]));
+    }
+    return words;
+}
+
+std::uint64_t mapBytes(MapFormat format, int width, int height) {
+    std::uint64_t bytes = levelBytes(format, std::uint64_t(width), std::uint64_t(height));
+    for (std::uint32_t level = 1; (width > 1 || height > 1) && level < kMostMapLevels; ++level) {
+        width = std::max(1, width / 2), height = std::max(1, height / 2);
+        bytes += levelBytes(format, std::uint64_t(width), std::uint64_t(height));
+    }
+    return bytes;
+}
+
+WordScale wordScale(const HeightMap& map) {
+    if (map.format == MapFormat::real || map.format == MapFormat::half) return {map.mid, map.scale};
+    const double step = double(map.range) / double(stepsOf(map.format));
+    return {(map.mid - double(map.base)) / step, map.scale * step};
+}
+
+} // namespace relief
