@@ -51,17 +51,16 @@ void main() {
 
 void main() {
     InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
-    Patch patch_ = fetchPatch(tile.patchIndex);
-    if (kIsCommon) patch_.type = patch_.texType = kPatchRegular;
-    loadTile(patch_);
-    patch_.firstPoint = patch_.texFirstPoint = 0u;
+    NetPair nets = fetchPatch(tile.patchIndex);
+    if (kIsCommon) nets.points.type = nets.texPoints.type = kPatchRegular;
+    loadTile(nets);
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     float scale = float(1u << tile.depth);
     vec2 origin = vec2(halvesOf(tile.origin));
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
         uvec2 ij = first + divided(k, size.x).yx;
         vec2 uv = insidePoint(tile, ij);
-        DisplacedSample s = displacedInLeaf(patch_, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
+        DisplacedSample s = displacedInLeaf(nets, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
                                              faceLevel(tile.face, uv));
         uint row = halvesOf(tile.segments).x - 1u;
         storeVertex(tile.firstVertex + (ij.y - 1u) * row + ij.x - 1u, s.q, s.h, s.normal, s.st,

@@ -15,17 +15,16 @@ void main() {
     uint index = passFirst + gl_WorkGroupID.x, edge = fetchRun(index).place;
     Edge record = fetchEdge(edge);
     uint patchIndex = faceRoot(record.owner.face) & ~kLeafBit;
-    Patch patch_ = fetchPatch(patchIndex);
-    patch_.type = patch_.texType = kPatchRegular;
-    loadTile(patch_);
-    patch_.firstPoint = patch_.texFirstPoint = 0u;
+    NetPair nets = fetchPatch(patchIndex);
+    nets.points.type = nets.texPoints.type = kPatchRegular;
+    loadTile(nets);
     float rate = edgeRate(edge);
     uint n = segmentsOf(rate, scene.isFractional), firstVertex = firstVertexOf(index);
     float low = cornerLevel(record.corners[0]), high = cornerLevel(record.corners[1]);
     for (uint k = 1u + gl_LocalInvocationID.x; k < n; k += gl_WorkGroupSize.x) {
         float t = sampleParameter(k, n, rate);
         vec2 uv = touchPoint(record.owner, t);
-        DisplacedSample s = displacedInLeaf(patch_, Leaf(patchIndex, uv, 1.0), uv, mix(low, high, t));
+        DisplacedSample s = displacedInLeaf(nets, Leaf(patchIndex, uv, 1.0), uv, mix(low, high, t));
         storeVertex(firstVertex + k - 1u, s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
     }
 }

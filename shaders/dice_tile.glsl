@@ -15,23 +15,29 @@ vec3 ownRestPoints[kMostPoints];
 
 vec3 tilePoint(uint i) { return kStretches && pose == scene.pointsRest ? ownRestPoints[i] : ownPoints[i]; }
 vec2 tileTexPoint(uint i) { return ownTexPoints[i]; }
-#define RELIEF_PATCH_POINT tilePoint
-#define RELIEF_TEX_PATCH_POINT tileTexPoint
+uvec4 tileRow(uint row) { return 4u * row + uvec4(0, 1, 2, 3); }
+#define RELIEF_NET_ROW(net, row) tileRow(row)
+#define RELIEF_NET_POINT(net, k) (k)
+#define RELIEF_POINT tilePoint
+#define RELIEF_TEX_POINT tileTexPoint
 #define RELIEF_UNROLL [[unroll]] // constant places in the arrays
 #include "displaced.glsl"
 
 vec3 restPoint(uint i) {
     pose = scene.pointsRest;
-    vec3 p = patchPoint(i);
+    vec3 p = pointAt(i);
     pose = scene.pointsNow;
     return p;
 }
 
-void loadTile(Patch patch_) {
-    for (uint i = gl_LocalInvocationID.x; i < kMostPoints; i += gl_WorkGroupSize.x) {
-        if (i < patchSize(patch_.type)) sharedPoints[i] = patchPoint(patch_.firstPoint + i);
-        if (kStretches && i < patchSize(patch_.type)) sharedRestPoints[i] = restPoint(patch_.firstPoint + i);
-        if (kHasTexCoords && i < patchSize(patch_.texType)) sharedTexPoints[i] = texPatchPoint(patch_.texFirstPoint + i);
+void loadTile(NetPair nets) {
+    for (uint k = gl_LocalInvocationID.x; k < kMostPoints; k += gl_WorkGroupSize.x) {
+        if (k < patchSize(nets.points.type)) {
+            uint i = netPoint(nets.points, k);
+            sharedPoints[k] = pointAt(i);
+            if (kStretches) sharedRestPoints[k] = restPoint(i);
+        }
+        if (kHasTexCoords && k < patchSize(nets.texPoints.type)) sharedTexPoints[k] = texPointAt(netPoint(nets.texPoints, k));
     }
     barrier();
     // Here, outside all branches, where a load with a constant address is one load for all lanes.

@@ -98,7 +98,7 @@ void addStretch(inout SurfacePoint point, LimitFrame rest, vec2 uv, float leafSc
     point.logStretch = 0.5 * (areaSlope / point.area - restSlope / restArea);
 }
 
-SurfacePoint surfacePoint(Patch patch_, Leaf leaf, vec2 uv, bool wantsTexture) {
+SurfacePoint surfacePoint(NetPair nets, Leaf leaf, vec2 uv, bool wantsTexture) {
     SurfacePoint point;
     point.tex = TexFrame(uv, mat2(1.0));
     point.stretch = 1.0;
@@ -111,7 +111,7 @@ SurfacePoint surfacePoint(Patch patch_, Leaf leaf, vec2 uv, bool wantsTexture) {
     for (uint kind = 0u; kind <= restKind; ++kind) {
         bool isTexture = kind > 0u && kind == textureKind;
         if (hasRest && kind == restKind) pose = scene.pointsRest;
-        LimitFrame f = byFace(patchFrame(isTexture, patch_, leaf.uv), leaf.scale);
+        LimitFrame f = byFace(patchFrame(isTexture, nets, leaf.uv), leaf.scale);
         if (kind == 0u) point.frame = f;
         else if (isTexture) point.tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
         else rest = f;
@@ -187,9 +187,9 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
 }
 
 // The same for a point inside a face whose leaf is known.
-DisplacedSample displacedInLeaf(Patch patch_, Leaf leaf, vec2 uv, float level) {
+DisplacedSample displacedInLeaf(NetPair nets, Leaf leaf, vec2 uv, float level) {
     DisplacedSample s;
-    SurfacePoint point = surfacePoint(patch_, leaf, uv, true);
+    SurfacePoint point = surfacePoint(nets, leaf, uv, true);
     HeightSample height = heightAt(point, level);
     addAttributes(s, point, height);
     s.p = point.frame.p;

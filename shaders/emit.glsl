@@ -15,7 +15,7 @@ void emitVertex(uint face, vec2 uv, Place place, uint rate, uint slot) {
     vNormal = s.normal;
     vTexCoord = vec4(s.st, uv);
     vHeight = s.h;
-    vFace = kShow == kShowLayers ? face : recordTexel(scene.firstFace, kFaceTexels, face, 1u).y;
+    vFace = kShow == kShowLayers ? face : cageFaceOf(face);
     vRate = rate;
 #if defined(RELIEF_CAPTURES_STREAM) || defined(RELIEF_CAPTURES_STORED)
     vec4 vertex = vec4(s.q, (place.flags & kPlaceOnBoundary) != 0u ? 1.0 : 0.0);

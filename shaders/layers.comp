@@ -49,7 +49,7 @@ void main() {
     bool isDense = passRows != 0u; // its faces have no numbers and its points stand still
     scene.layerTarget.at[first + kLayerDepth] = (scene.worldToClip * vec4(position, 1.0)).w;
     for (uint i = 0u; i < 3u; ++i) scene.layerTarget.at[first + kLayerNormal + i] = normal[i];
-    scene.layerTarget.at[first + kLayerFace] = isDense ? 0.0 : float(recordTexel(scene.firstFace, kFaceTexels, face, 1u).y);
+    scene.layerTarget.at[first + kLayerFace] = isDense ? 0.0 : float(cageFaceOf(face));
     scene.layerTarget.at[first + kLayerTexCoords] = other.z;
     scene.layerTarget.at[first + kLayerTexCoords + 1u] = other.w;
     scene.layerTarget.at[first + kLayerHeight] = isDense ? 0.0 : place.z;

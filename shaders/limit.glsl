@@ -5,9 +5,11 @@
 #include "scene.glsl"
 
 // Where control points come from: the surface's arrays, unless a stage holds them itself.
-#ifndef RELIEF_PATCH_POINT
-#define RELIEF_PATCH_POINT patchPoint
-#define RELIEF_TEX_PATCH_POINT texPatchPoint
+#ifndef RELIEF_POINT
+#define RELIEF_NET_ROW netRow
+#define RELIEF_NET_POINT netPoint
+#define RELIEF_POINT pointAt
+#define RELIEF_TEX_POINT texPointAt
 #define RELIEF_UNROLL
 #endif
 
@@ -61,10 +63,11 @@ Leaf findLeaf(uint face, vec2 uv) {
     return leaf;
 }
 
-// A control point of a patch of the surface, or of the texture coordinates on it (in x and y).
-vec3 controlPoint(bool isTexture, uint i) {
-    if (isTexture) return vec3(RELIEF_TEX_PATCH_POINT(i), 0.0);
-    return RELIEF_PATCH_POINT(i);
+// Control point k of a patch of the surface, or of the texture coordinates on it (in x and y).
+vec3 controlPoint(bool isTexture, Net net, uint k) {
+    uint i = RELIEF_NET_POINT(net, k);
+    if (isTexture) return vec3(RELIEF_TEX_POINT(i), 0.0);
+    return RELIEF_POINT(i);
 }
 
 #ifndef RELIEF_TRIANGLES
@@ -106,24 +109,23 @@ CurveWeights atBoundary(CurveWeights c, bool first, bool last) {
     return c;
 }
 
-// param1 is Far::PatchParam's field1; bits 7..10 mark boundaries: v = 0, u = 1, v = 1, u = 0.
-void regularWeights(vec2 uv, uint param1, out CurveWeights u, out CurveWeights v) {
+// Bits of a boundary: v = 0, u = 1, v = 1, u = 0.
+void regularWeights(vec2 uv, uint boundary, out CurveWeights u, out CurveWeights v) {
     u = splineWeights(uv.x);
     v = splineWeights(uv.y);
-    uint boundary = (param1 >> 7) & 15u;
     if (boundary != 0u) {
         u = atBoundary(u, (boundary & 8u) != 0u, (boundary & 2u) != 0u);
         v = atBoundary(v, (boundary & 1u) != 0u, (boundary & 4u) != 0u);
     }
 }
 
-LimitFrame regular(uint firstPoint, uint param1, vec2 uv) {
+LimitFrame regular(Net net, vec2 uv) {
     CurveWeights u, v;
-    regularWeights(uv, param1, u, v);
+    regularWeights(uv, net.boundary, u, v);
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        uint first = firstPoint + 4u * row;
-        vec3 a = RELIEF_PATCH_POINT(first), b = RELIEF_PATCH_POINT(first + 1u), c = RELIEF_PATCH_POINT(first + 2u), d = RELIEF_PATCH_POINT(first + 3u);
+        uvec4 i = RELIEF_NET_ROW(net, row);
+        vec3 a = RELIEF_POINT(i.x), b = RELIEF_POINT(i.y), c = RELIEF_POINT(i.z), d = RELIEF_POINT(i.w);
         precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
         precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
@@ -138,13 +140,13 @@ LimitFrame regular(uint firstPoint, uint param1, vec2 uv) {
 }
 
 // The same for texture coordinates: two components, first derivatives.
-LimitFrame regularTexture(uint firstPoint, uint param1, vec2 uv) {
+LimitFrame regularTexture(Net net, vec2 uv) {
     CurveWeights u, v;
-    regularWeights(uv, param1, u, v);
+    regularWeights(uv, net.boundary, u, v);
     vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        uint first = firstPoint + 4u * row;
-        vec2 a = RELIEF_TEX_PATCH_POINT(first), b = RELIEF_TEX_PATCH_POINT(first + 1u), c = RELIEF_TEX_PATCH_POINT(first + 2u), d = RELIEF_TEX_PATCH_POINT(first + 3u);
+        uvec4 i = RELIEF_NET_ROW(net, row);
+        vec2 a = RELIEF_TEX_POINT(i.x), b = RELIEF_TEX_POINT(i.y), c = RELIEF_TEX_POINT(i.z), d = RELIEF_TEX_POINT(i.w);
         vec2 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         st += v.w[row] * x;
         su += v.w[row] * (u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d);
@@ -163,13 +165,13 @@ LimitFrame regularTexture(uint firstPoint, uint param1, vec2 uv) {
 const uint kGregoryRows[4] = {0u | 1u << 5 | 7u << 10 | 5u << 15, 2u | 3u << 5 | 8u << 10 | 6u << 15,
                               16u | 18u << 5 | 13u << 10 | 12u << 15, 15u | 17u << 5 | 11u << 10 | 10u << 15};
 
-LimitFrame gregory(bool isTexture, uint firstPoint, vec2 uv) {
+LimitFrame gregory(bool isTexture, Net net, vec2 uv) {
     CurveWeights u = bezierWeights(uv.x), v = bezierWeights(uv.y);
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint k = 0u; k < 16u; ++k) {
         uint row = k >> 2, column = k & 3u;
         uint point = (kGregoryRows[row] >> (5u * column)) & 31u;
-        vec3 c = controlPoint(isTexture, firstPoint + point);
+        vec3 c = controlPoint(isTexture, net, point);
         vec3 cu = vec3(0), cv = vec3(0), cuu = vec3(0), cuv = vec3(0), cvv = vec3(0);
         if ((row == 1u || row == 2u) && (column == 1u || column == 2u)) {
             // Distances from the corner's two sides and their derivatives: +1 at the near end, -1 at the far one.
@@ -183,7 +185,7 @@ LimitFrame gregory(bool isTexture, uint firstPoint, vec2 uv) {
             float gx = (isX ? y : -y) * inverse * inverse, gy = (isX ? -x : x) * inverse * inverse;
             float gxx = -2.0 * gx * inverse, gyy = -2.0 * gy * inverse;
             float gxy = (isX ? x - y : y - x) * inverse * inverse * inverse;
-            vec3 other = controlPoint(isTexture, firstPoint + point + 1u);
+            vec3 other = controlPoint(isTexture, net, point + 1u);
             vec3 difference = c - other;
             c = other + g * difference;
             cu = gx * du * difference;
@@ -210,9 +212,9 @@ LimitFrame gregory(bool isTexture, uint firstPoint, vec2 uv) {
 
 // --- bilinear patches -----------------------------------------------------------------------------------------------
 
-LimitFrame bilinear(bool isTexture, uint firstPoint, vec2 uv) {
-    vec3 a = controlPoint(isTexture, firstPoint), b = controlPoint(isTexture, firstPoint + 1u);
-    vec3 c = controlPoint(isTexture, firstPoint + 2u), d = controlPoint(isTexture, firstPoint + 3u);
+LimitFrame bilinear(bool isTexture, Net net, vec2 uv) {
+    vec3 a = controlPoint(isTexture, net, 0u), b = controlPoint(isTexture, net, 1u);
+    vec3 c = controlPoint(isTexture, net, 2u), d = controlPoint(isTexture, net, 3u);
     LimitFrame f = kNoFrame;
     precise vec3 low = (1.0 - uv.x) * a + uv.x * b, high = (1.0 - uv.x) * d + uv.x * c;
     precise vec3 p = (1.0 - uv.y) * low + uv.y * high;
@@ -233,10 +235,10 @@ struct Weights {
     float p[18], du[18], dv[18], duu[18], duv[18], dvv[18];
 };
 
-LimitFrame weighted(Weights w, int count, bool isTexture, uint firstPoint) {
+LimitFrame weighted(Weights w, int count, bool isTexture, Net net) {
     precise LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(isTexture, firstPoint + uint(i));
+        vec3 c = controlPoint(isTexture, net, uint(i));
         f.p += w.p[i] * c;
         f.pu += w.du[i] * c;
         f.pv += w.dv[i] * c;
@@ -278,10 +280,10 @@ void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2
     }
 }
 
-LimitFrame trianglePatch(bool isTexture, uint type, uint param1, uint firstPoint, vec2 uv) {
+LimitFrame trianglePatch(bool isTexture, Net net, vec2 uv) {
     Weights w;
     int count = 18;
-    if (type == kPatchGregoryTriangle) {
+    if (net.type == kPatchGregoryTriangle) {
         Osd_EvalBasisGregoryTri(uv.x, uv.y, w.p, w.du, w.dv, w.duu, w.duv, w.dvv);
         float u = uv.x, v = uv.y, t = 1.0 - u - v;
         addQuotientRule(w, 3, u, v, vec2(1, 0), vec2(0, 1));
@@ -290,10 +292,9 @@ LimitFrame trianglePatch(bool isTexture, uint type, uint param1, uint firstPoint
     } else {
         float p[12], du[12], dv[12], duu[12], duv[12], dvv[12];
         count = 12;
-        if (type == kPatchLoop) {
+        if (net.type == kPatchLoop) {
             Osd_EvalBasisBoxSplineTri(uv.x, uv.y, p, du, dv, duu, duv, dvv);
-            int boundary = int(param1 >> 7) & 31;
-            if (boundary != 0) Osd_boundBasisBoxSplineTri(boundary, p, du, dv, duu, duv, dvv);
+            if (net.boundary != 0u) Osd_boundBasisBoxSplineTri(int(net.boundary), p, du, dv, duu, duv, dvv);
         } else {
             count = 3;
             p[0] = 1.0 - uv.x - uv.y, p[1] = uv.x, p[2] = uv.y;
@@ -306,7 +307,7 @@ LimitFrame trianglePatch(bool isTexture, uint type, uint param1, uint firstPoint
             w.duu[i] = duu[i], w.duv[i] = duv[i], w.dvv[i] = dvv[i];
         }
     }
-    return weighted(w, count, isTexture, firstPoint);
+    return weighted(w, count, isTexture, net);
 }
 #endif
 
@@ -314,13 +315,13 @@ LimitFrame trianglePatch(bool isTexture, uint type, uint param1, uint firstPoint
 
 // --- any patch, by OpenSubdiv's generic basis: the check of the forms above -----------------------------------------
 
-LimitFrame generic(bool isTexture, uint type, uint param1, uint firstPoint, vec2 uv) {
+LimitFrame generic(bool isTexture, Net net, vec2 uv) {
     float p[20], du[20], dv[20], duu[20], duv[20], dvv[20];
-    OsdPatchParam param = OsdPatchParamInit(0, int(param1), 0.0);
-    int count = OsdEvaluatePatchBasisNormalized(int(type), param, uv.x, uv.y, p, du, dv, duu, duv, dvv);
+    OsdPatchParam param = OsdPatchParamInit(0, int(net.boundary << 7), 0.0);
+    int count = OsdEvaluatePatchBasisNormalized(int(net.type), param, uv.x, uv.y, p, du, dv, duu, duv, dvv);
     LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(isTexture, firstPoint + uint(i));
+        vec3 c = controlPoint(isTexture, net, uint(i));
         f.p += p[i] * c;
         f.pu += du[i] * c;
         f.pv += dv[i] * c;
@@ -333,22 +334,21 @@ LimitFrame generic(bool isTexture, uint type, uint param1, uint firstPoint, vec2
 #endif
 
 // The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it.
-LimitFrame patchFrame(bool isTexture, Patch patch_, vec2 uv) {
-    uint type = isTexture ? patch_.texType : patch_.type;
-    uint param1 = isTexture ? patch_.texParam1 : patch_.param1;
-    uint firstPoint = isTexture ? patch_.texFirstPoint : patch_.firstPoint;
+LimitFrame patchFrame(bool isTexture, NetPair nets, vec2 uv) {
+    Net net = nets.points;
+    if (isTexture) net = nets.texPoints;
 #ifdef RELIEF_TRIANGLES
-    return trianglePatch(isTexture, type, param1, firstPoint, uv);
+    return trianglePatch(isTexture, net, uv);
 #else
 #ifdef RELIEF_GENERIC_BASIS
-    if (kGenericBasis) return generic(isTexture, type, param1, firstPoint, uv);
+    if (kGenericBasis) return generic(isTexture, net, uv);
 #endif
-    if (type == kPatchRegular) {
-        if (isTexture) return regularTexture(firstPoint, param1, uv);
-        return regular(firstPoint, param1, uv);
+    if (net.type == kPatchRegular) {
+        if (isTexture) return regularTexture(net, uv);
+        return regular(net, uv);
     }
-    if (type == kPatchQuads) return bilinear(isTexture, firstPoint, uv);
-    return gregory(isTexture, firstPoint, uv);
+    if (net.type == kPatchQuads) return bilinear(isTexture, net, uv);
+    return gregory(isTexture, net, uv);
 #endif
 }
 

@@ -20,6 +20,6 @@ void main() {
     vTexCoord = vec4(kHasTexCoords && kWantsTexCoords ? texelFetch(meshTexCoordTexels, gl_VertexIndex).xy : vec2(0), vec2(0));
     vHeight = vertex.w;
     // Draws of a face each carry its number; a whole mesh in one draw has patches of 64 vertices instead.
-    vFace = passRows > 0u ? recordTexel(scene.firstFace, kFaceTexels, passFirst, 1u).y : uint(gl_VertexIndex) / 64u;
+    vFace = passRows > 0u ? cageFaceOf(passFirst) : uint(gl_VertexIndex) / 64u;
     vRate = max(passNumber, 1u);
 }

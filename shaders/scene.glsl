@@ -30,49 +30,71 @@ layout(constant_id = 10) const bool kStretches = false; // heights grow with the
 // The pose that patches are evaluated in: this frame's, unless a stage asks for another one.
 uint pose = scene.pointsNow;
 
+layout(constant_id = 13) const bool kHasWideNets = false;
+
 uvec4 recordTexel(uint first, uint texels, uint index, uint texel) {
     return texelFetch(recordTexels, int(first + texels * index + texel));
 }
 
-uint faceRoot(uint face) { return recordTexel(scene.firstFace, kFaceTexels, face, 0u).x; }
+// --- records: the bits are those of shared/records.h ------------------------------------------------------------------
 
-// The order of words is that of the structs in shared/surface.h.
+uint faceRoot(uint face) { return recordTexel(scene.firstFace, kFaceTexels, face, 0u).x; }
+uint cageFaceOf(uint face) { return recordTexel(scene.firstFace, kFaceTexels, face, 1u).y; }
+
 Face fetchFace(uint face) {
     uvec4 a = recordTexel(scene.firstFace, kFaceTexels, face, 0u), b = recordTexel(scene.firstFace, kFaceTexels, face, 1u);
     return Face(a.x, uint[4](a.y, a.z, a.w, b.x), b.y);
 }
 
-Patch fetchPatch(uint i) {
-    uvec4 a = recordTexel(scene.firstPatch, kPatchTexels, i, 0u), b = recordTexel(scene.firstPatch, kPatchTexels, i, 1u);
-    return Patch(a.x, a.y, a.z, a.w, b.x, b.y, b.z);
-}
-
-Touch touchOf(uvec4 a) { return Touch(a.x, a.y, uintBitsToFloat(a.z), uintBitsToFloat(a.w)); }
-
+Touch touchOf(uvec4 a) { return Touch(a.x, a.y & 255u, uintBitsToFloat(a.z), uintBitsToFloat(a.w)); }
 Touch fetchTouch(uint i) { return touchOf(recordTexel(scene.firstTouch, kTouchTexels, i, 0u)); }
 
 Edge fetchEdge(uint i) {
-    uvec4 a = recordTexel(scene.firstEdge, kEdgeTexels, i, 0u), b = recordTexel(scene.firstEdge, kEdgeTexels, i, 1u);
-    uvec4 c = recordTexel(scene.firstEdge, kEdgeTexels, i, 2u);
-    return Edge(touchOf(a), uint[2](b.x, b.y), b.z, b.w, c.x, c.y);
+    uvec4 a = recordTexel(scene.firstEdge, kEdgeTexels, i, 0u);
+    uint span = a.y >> 30, partner = a.z >> 30;
+    Touch owner = Touch(a.x & 0xfffffffu, a.x >> 28 & 3u, span == kSpanSecondHalf ? 0.5 : 0.0, span == kSpanFirstHalf ? 0.5 : 1.0);
+    uint touches = a.w == kNoTouch ? 0u : recordTexel(scene.firstTouch, kTouchTexels, a.w, 0u).y >> 8;
+    uint other = partner == kPartnerNext ? i + 1u : partner == kPartnerBefore ? i - 1u : i;
+    return Edge(owner, uint[2](a.y & 0x3fffffffu, a.z & 0x3fffffffu), a.w, touches, other, a.x >> 30);
 }
 
 Corner fetchCorner(uint i) {
-    uvec4 b = recordTexel(scene.firstCorner, kCornerTexels, i, 1u);
-    return Corner(touchOf(recordTexel(scene.firstCorner, kCornerTexels, i, 0u)), b.x, b.y, b.z);
+    uvec4 a = recordTexel(scene.firstCorner, kCornerTexels, i, 0u);
+    float x = 0.5 * float(a.y & 1u);
+    return Corner(Touch(a.x & 0xfffffffu, a.x >> 28 & 3u, x, x), a.z, a.y >> 1, a.x >> 30);
 }
+
+// Control points of a patch, or of the texture coordinates on it, by their numbers.
+struct Net {
+    uint first;    // texel
+    uint base;     // that the numbers are counted from
+    uint type;     // kPatch...
+    uint boundary; // Far::PatchParam's mask of boundary sides
+};
+
+struct NetPair {
+    Net points, texPoints;
+};
+
+NetPair fetchPatch(uint i) {
+    uvec4 a = recordTexel(scene.firstPatch, kPatchTexels, i, 0u);
+    return NetPair(Net(a.x, a.y, a.w & 15u, a.w >> 8 & 31u), Net(a.x + (a.w >> 18), a.z, a.w >> 4 & 15u, a.w >> 13 & 31u));
+}
+
+// Points 4 row .. 4 row + 3 of a net.
+uvec4 netRow(Net net, uint row) {
+    if (kHasWideNets) return recordTexel(net.first, 1u, row, 0u);
+    uvec4 eight = recordTexel(net.first, 1u, row >> 1, 0u);
+    uvec2 four = (row & 1u) == 0u ? eight.xy : eight.zw;
+    return net.base + uvec4(four.x & 0xffffu, four.x >> 16, four.y & 0xffffu, four.y >> 16);
+}
+
+uint netPoint(Net net, uint k) { return netRow(net, k >> 2)[k & 3u]; }
+
+vec3 pointAt(uint i) { return texelFetch(pointTexels, int(pose + i)).xyz; }
+vec2 texPointAt(uint i) { return texelFetch(texPointTexels, int(i)).xy; }
 
 uint treeEntry(uint i) { return texelFetch(wordTexels, int(i)).x; }
-
-vec3 patchPoint(uint i) {
-    uint point = texelFetch(wordTexels, int(scene.firstPatchPoint + i)).x;
-    return texelFetch(pointTexels, int(pose + point)).xyz;
-}
-
-vec2 texPatchPoint(uint i) {
-    uint point = texelFetch(wordTexels, int(scene.firstTexPatchPoint + i)).x;
-    return texelFetch(texPointTexels, int(point)).xy;
-}
 
 float edgeRate(uint edge) { return texelFetch(edgeRateTexels, int(edge)).x; }
 

@@ -5,8 +5,8 @@
 #define RELIEF_SHARED_SCENE_H
 
 #include "shared/maps.h"
+#include "shared/records.h"
 #include "shared/sample.h"
-#include "shared/surface.h"
 
 #ifdef __cplusplus
 namespace relief {
@@ -30,8 +30,8 @@ RELIEF_CONSTANT uint kBindHeight = 1u;       // words of the height map: shared/
 RELIEF_CONSTANT uint kBindAlbedo = 2u;       // sampled images
 RELIEF_CONSTANT uint kBindEnvironment = 3u;
 RELIEF_CONSTANT uint kBindShadow = 4u;
-RELIEF_CONSTANT uint kBindRecords = 5u;      // texel buffers: Face, Patch, Edge, Corner and Touch, each padded to texels
-RELIEF_CONSTANT uint kBindWords = 6u;        // tree, patch points, texture patch points
+RELIEF_CONSTANT uint kBindRecords = 5u;      // texel buffers: faces, patches and their nets, edges, corners, touches: shared/records.h
+RELIEF_CONSTANT uint kBindWords = 6u;        // tree
 RELIEF_CONSTANT uint kBindPoints = 7u;
 RELIEF_CONSTANT uint kBindTexPoints = 8u;
 RELIEF_CONSTANT uint kBindEdgeRates = 9u;    // segments an edge, floats: written per frame
@@ -50,13 +50,6 @@ RELIEF_CONSTANT uint kBindCount = 21u;
 
 // What texels.comp leaves for each edge: its length in texels, the lowest and the highest (s,t) on it.
 RELIEF_CONSTANT uint kTexelWords = 5u;
-
-// Texels of four words that a record takes in kBindRecords.
-RELIEF_CONSTANT uint kFaceTexels = 2u;
-RELIEF_CONSTANT uint kPatchTexels = 2u;
-RELIEF_CONSTANT uint kEdgeTexels = 3u;
-RELIEF_CONSTANT uint kCornerTexels = 2u;
-RELIEF_CONSTANT uint kTouchTexels = 1u;
 
 // --show
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -86,14 +79,12 @@ struct Scene {
     RELIEF_ADDRESS(Words) dicedIndices;
     RELIEF_ADDRESS(Floats) layerTarget;      // layers.comp: kLayerChannels floats a pixel
 
-    // Where each array starts: texels of kBindRecords, words of kBindWords.
+    // Where each array starts: texels of kBindRecords.
     uint firstFace;
     uint firstPatch;
     uint firstEdge;
     uint firstCorner;
     uint firstTouch;
-    uint firstPatchPoint;    // the tree is at 0
-    uint firstTexPatchPoint;
     uint firstFaceRuns;      // texels of kBindDiceTable; runs are at 0
     uint cornerRunCount;     // runs of one vertex: the first ones
     uint runCount;
@@ -152,7 +143,7 @@ RELIEF_CONSTANT uint kLayerMotion = 8u;
 RELIEF_CONSTANT uint kLayerChannels = 10u;
 
 #ifdef __cplusplus
-static_assert(offsetof(Scene, firstFace) == 72 && offsetof(Scene, worldToClip) == 72 + 40 + 12 + 44 + 72);
+static_assert(offsetof(Scene, firstFace) == 72 && offsetof(Scene, worldToClip) == 72 + 32 + 12 + 44 + 72);
 } // namespace relief
 #endif
 #endif

@@ -1,4 +1,4 @@
-// The surface as flat arrays, as the device reads it. A face here is OpenSubdiv's ptex face: a quad of the cage, one corner
+// The surface as flat arrays; shared/records.h has their bits on the device. A face here is OpenSubdiv's ptex face: a quad of the cage, one corner
 // quad of an n-gon, or a triangle of a Loop cage.
 //
 //   quads (Catmull-Clark, bilinear)        triangles (Loop)

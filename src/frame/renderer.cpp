@@ -35,7 +35,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) cons
                       .normal = frame.options.normal,
                       .hasMips = frame.rates.hasMips(),
                       .stretches = frame.model.stretches(),
-                      .mapFormat = frame.model.mapFormat()};
+                      .mapFormat = frame.model.mapFormat(),
+                      .hasWideNets = frame.model.hasWideNets()};
     // Where positions are all that counts no normal is cheaper than the limit normal.
     if (pass == Pass::shadow || pass == Pass::cracks) c.normal = NormalKind::limit;
     if (pass == Pass::cracks) c.show = kShowCracks;

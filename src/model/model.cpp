@@ -80,21 +80,13 @@ Model::~Model() = default;
 
 void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     const Surface& s = *desc.surface;
-    std::vector<std::uint32_t> records;
-    firstFace_ = appendRecords<kFaceTexels>(records, s.faces);
-    firstPatch_ = appendRecords<kPatchTexels>(records, s.patches);
-    firstEdge_ = appendRecords<kEdgeTexels>(records, s.edges);
-    firstCorner_ = appendRecords<kCornerTexels>(records, s.corners);
-    firstTouch_ = appendRecords<kTouchTexels>(records, s.touches);
+    const SurfaceRecords records = recordsOf(s);
+    firstFace_ = records.firstFace, firstPatch_ = records.firstPatch, firstEdge_ = records.firstEdge;
+    firstCorner_ = records.firstCorner, firstTouch_ = records.firstTouch;
+    hasWideNets_ = records.hasWideNets;
     records_ =
-        uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records)));
-
-    std::vector<std::uint32_t> words = s.tree;
-    firstPatchPoint_ = std::uint32_t(words.size());
-    words.insert(words.end(), s.patchPoints.begin(), s.patchPoints.end());
-    firstTexPatchPoint_ = std::uint32_t(words.size());
-    words.insert(words.end(), s.texPatchPoints.begin(), s.texPatchPoints.end());
-    words_ = uploadTexels(device, {.name = "words"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(words)));
+        uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records.words)));
+    words_ = uploadWords(device, "tree", s.tree);
 
     const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
     heightPyramid_ = std::make_unique<HeightPyramid>(
@@ -191,8 +183,6 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     scene.firstEdge = firstEdge_;
     scene.firstCorner = firstCorner_;
     scene.firstTouch = firstTouch_;
-    scene.firstPatchPoint = firstPatchPoint_;
-    scene.firstTexPatchPoint = firstTexPatchPoint_;
     bindings[kBindRecords].texels = records_.view.get();
     bindings[kBindWords].texels = words_.view.get();
     bindings[kBindPoints].texels = points_.texels.view.get();

@@ -92,6 +92,8 @@ public:
     [[nodiscard]] bool hasAlbedoMap() const { return hasAlbedo_; }
     [[nodiscard]] Wrap wrap() const { return wrap_; }
     [[nodiscard]] MapFormat mapFormat() const { return mapFormat_; }
+    /// Whether control points are numbered with 32 bits (shared/records.h).
+    [[nodiscard]] bool hasWideNets() const { return hasWideNets_; }
     /// Bytes of the height map on the device, with its mips.
     [[nodiscard]] std::uint64_t heightBytes() const { return hasHeight() ? heights_.buffer.bytes : 0; }
     /// Bytes resident on the device: buffers and textures.
@@ -107,7 +109,6 @@ private:
     Buffer indices_;
     Texture albedoMap_;
     std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstTouch_ = 0;
-    std::uint32_t firstPatchPoint_ = 0, firstTexPatchPoint_ = 0;
     std::vector<Face> faces_;
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> tree_;
@@ -126,7 +127,7 @@ private:
     float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0, mapRoundOff_ = 0;
     MapFormat mapFormat_ = MapFormat::real;
     Wrap wrap_ = Wrap::repeat;
-    bool isDense_ = false, hasTexCoords_ = false, hasAlbedo_ = false;
+    bool isDense_ = false, hasWideNets_ = false, hasTexCoords_ = false, hasAlbedo_ = false;
     std::uint64_t byteCount_ = 0;
 };
 

@@ -1,10 +1,10 @@
 // What every shader stage is given: constants, push constants, set 0. Used here and by frame.
 #pragma once
 
-#include <cstring>
 #include <map>
 
 #include "model/model.h"
+#include "model/records.h"
 #include "model/shaders.h"
 
 namespace relief {
@@ -20,7 +20,7 @@ struct PushConstants {
 /// Set 0 of every pass (kBind...).
 PipelineLayoutDesc passLayout();
 
-/// Specialization constants 0..12 in the order of the shaders' constant_id.
+/// Specialization constants 0..13 in the order of the shaders' constant_id.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
@@ -33,12 +33,13 @@ struct ShaderConstants {
     bool stretches = false; ///< heights grow with the surface
     bool hasMotion = false; ///< layers: the surface was in another pose before
     MapFormat mapFormat = MapFormat::real;
+    bool hasWideNets = false;
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
         return {isGenericBasis, hasTexCoords, hasHeight,    std::uint32_t(normal),
                 wantsTexCoords, show,         hasAlbedoMap, groupSize,
                 hasMips,        isCommon,     stretches,    hasMotion,
-                std::uint32_t(mapFormat)};
+                std::uint32_t(mapFormat), hasWideNets};
     }
 };
 
@@ -52,17 +53,6 @@ TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const
 /// A uniform buffer that holds one Scene; written inside a command buffer.
 Buffer makeSceneBuffer(Device& device);
 void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene);
-
-/// Appends records as words, each padded to its texels; returns the texel that they start at.
-template <std::uint32_t kTexels, typename Record>
-std::uint32_t appendRecords(std::vector<std::uint32_t>& words, const std::vector<Record>& records) {
-    static_assert(sizeof(Record) <= 16 * kTexels);
-    const std::size_t first = words.size();
-    words.resize(first + records.size() * 4 * kTexels);
-    for (std::size_t i = 0; i < records.size(); ++i)
-        std::memcpy(&words[first + i * 4 * kTexels], &records[i], sizeof(Record));
-    return std::uint32_t(first / 4);
-}
 
 /// Passes that make no picture: everything of a scene and of set 0 up to the samples of a picture.
 class GeometryInputs {
@@ -106,7 +96,8 @@ inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
             .hasHeight = model.hasHeight(),
             .normal = normal,
             .stretches = model.stretches(),
-            .mapFormat = model.mapFormat()};
+            .mapFormat = model.mapFormat(),
+            .hasWideNets = model.hasWideNets()};
 }
 
 /// Two triangles a cell, row after row: the first rows of a larger grid with as many columns.

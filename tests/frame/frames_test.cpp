@@ -6,6 +6,7 @@
 #include "device.h"
 #include "maps.h"
 #include "meshes.h"
+#include "model/records.h"
 
 namespace relief::test {
 namespace {
@@ -168,6 +169,28 @@ INSTANTIATE_TEST_SUITE_P(AllCages, Frames, ::testing::ValuesIn(cases()), [](cons
     return name;
 });
 
+class Bases : public OnDevice {};
+
+// Control points too far apart for 16 bits: half of the cage's points follow after many that no face uses.
+TEST_F(Bases, areTheSameWithWideNets) {
+    Cage cage = torusWithSeams();
+    constexpr std::uint32_t kGap = 70'000;
+    const auto half = std::uint32_t(cage.positions.size() / 2);
+    cage.positions.insert(cage.positions.begin() + half, kGap, vec3(0));
+    for (std::uint32_t& corner : cage.corners)
+        if (corner >= half) corner += kGap;
+    const Case near{"torus", torusWithSeams(), {.isolation = 3}}, far{"torus of far points", cage, {.isolation = 3}};
+    const auto isWide = [](const Case& c) { return recordsOf(buildSurface(c.cage, c.options)).hasWideNets; };
+    EXPECT_FALSE(isWide(near));
+    EXPECT_TRUE(isWide(far));
+    const HeightMap map = sineMap(64, 0.05);
+    const Errors e = compare(far, map, false), narrow = compare(near, map, false);
+    EXPECT_EQ(e.p, narrow.p);
+    EXPECT_EQ(e.st, narrow.st);
+    EXPECT_EQ(e.q, narrow.q);
+    EXPECT_LT(e.q, 2e-5);
+}
+
 class MapFormats : public OnDevice {};
 
 TEST_F(MapFormats, agreeWithTheReferenceThatReadsTheSame) {
@@ -219,7 +242,6 @@ INSTANTIATE_TEST_SUITE_P(Files, FileFrames,
                                            "meshes/lantern.obj", "meshes/strawberry.obj", "meshes/octopus.obj",
                                            "bigguy.obj", "monsterfrog.obj", "car.obj"));
 
-class Bases : public OnDevice {};
 
 // The specialised bicubic, Gregory and bilinear patches against OpenSubdiv's generic basis on the same device.
 TEST_F(Bases, specialisedPatchesEqualOpenSubdivsGenericBasis) {

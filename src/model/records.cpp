@@ -1,0 +1,146 @@
+// The tables of a surface in the bits of shared/records.h.
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <span>
+
+#include "model/records.h"
+
+namespace relief {
+namespace {
+
+constexpr std::uint32_t kMostFaces = 1u << 28, kMostCorners = 1u << 30, kMostEdgeTouches = 1u << 24;
+
+void append(std::vector<std::uint32_t>& words, std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t w) {
+    words.insert(words.end(), {x, y, z, w});
+}
+
+/// face:28 side:2 flags:2
+std::uint32_t ownerWord(const Touch& owner, std::uint32_t flags) { return owner.face | owner.side << 28 | flags << 30; }
+
+std::uint32_t spanOf(const Touch& owner) {
+    if (owner.start == 0 && owner.end == 1) return kSpanWhole;
+    if (owner.start == 0 && owner.end == 0.5f) return kSpanFirstHalf;
+    if (owner.start == 0.5f && owner.end == 1) return kSpanSecondHalf;
+    fail(Failure::internal, "an edge goes from {} to {} of its owner's side", owner.start, owner.end);
+}
+
+std::uint32_t partnerOf(const Surface& surface, std::uint32_t edge) {
+    const std::uint32_t partner = surface.edges[edge].partner;
+    if (partner == edge) return kPartnerNone;
+    if (partner == edge + 1) return kPartnerNext;
+    if (partner + 1 == edge) return kPartnerBefore;
+    fail(Failure::internal, "edge {} has its other half at {}", edge, partner);
+}
+
+void appendEdges(std::vector<std::uint32_t>& words, const Surface& surface) {
+    for (std::uint32_t i = 0; i < surface.edges.size(); ++i) {
+        const Edge& edge = surface.edges[i];
+        append(words, ownerWord(edge.owner, edge.flags), edge.corners[0] | spanOf(edge.owner) << 30,
+               edge.corners[1] | partnerOf(surface, i) << 30, edge.touchCount > 0 ? edge.firstTouch : kNoTouch);
+    }
+}
+
+void appendCorners(std::vector<std::uint32_t>& words, const Surface& surface) {
+    for (const Corner& corner : surface.corners)
+        append(words, ownerWord(corner.owner, corner.flags), (corner.owner.start > 0 ? 1 : 0) | corner.touchCount << 1,
+               corner.firstTouch, 0);
+}
+
+void appendTouches(std::vector<std::uint32_t>& words, const Surface& surface) {
+    const std::size_t first = words.size();
+    for (const Touch& touch : surface.touches)
+        append(words, touch.face, touch.side, std::bit_cast<std::uint32_t>(touch.start),
+               std::bit_cast<std::uint32_t>(touch.end));
+    for (const Edge& edge : surface.edges)
+        if (edge.touchCount > 0) words[first + 4 * std::size_t(edge.firstTouch) + 1] |= edge.touchCount << 8;
+}
+
+/// Numbers of control points, in texels that begin with whole ones.
+class NetWriter {
+public:
+    explicit NetWriter(const Surface& surface) : surface_(surface) {
+        for (const Patch& patch : surface.patches)
+            isWide_ = isWide_ || isFar(pointsOf(patch)) || isFar(texPointsOf(patch));
+    }
+
+    [[nodiscard]] bool isWide() const { return isWide_; }
+
+    /// The patches, and after them their nets.
+    void append(std::vector<std::uint32_t>& words) const {
+        auto texel = std::uint32_t(words.size() / 4 + surface_.patches.size());
+        for (const Patch& patch : surface_.patches) {
+            const Net points = pointsOf(patch), texPoints = texPointsOf(patch);
+            const std::uint32_t texels = texelsOf(points);
+            relief::append(words, texel, baseOf(points), baseOf(texPoints),
+                           patch.type | patch.texType << 4 | (patch.param1 >> 7 & 31) << 8 |
+                               (patch.texParam1 >> 7 & 31) << 13 | texels << 18);
+            texel += texels + texelsOf(texPoints);
+        }
+        for (const Patch& patch : surface_.patches)
+            for (const Net& net : {pointsOf(patch), texPointsOf(patch)}) appendNet(words, net);
+    }
+
+private:
+    using Net = std::span<const std::uint32_t>;
+
+    [[nodiscard]] Net pointsOf(const Patch& patch) const {
+        return Net(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
+    }
+    [[nodiscard]] Net texPointsOf(const Patch& patch) const {
+        if (!surface_.hasTexCoords()) return {};
+        return Net(surface_.texPatchPoints).subspan(patch.texFirstPoint, patchSize(patch.texType));
+    }
+    static bool isFar(const Net& net) {
+        if (net.empty()) return false;
+        const auto [lowest, highest] = std::ranges::minmax(net);
+        return highest - lowest > 0xffff;
+    }
+    [[nodiscard]] std::uint32_t baseOf(const Net& net) const {
+        return isWide_ || net.empty() ? 0 : std::ranges::min(net);
+    }
+    [[nodiscard]] std::uint32_t texelsOf(const Net& net) const {
+        const std::size_t perTexel = isWide_ ? 4 : 8;
+        return std::uint32_t((net.size() + perTexel - 1) / perTexel);
+    }
+    void appendNet(std::vector<std::uint32_t>& words, const Net& net) const {
+        const std::size_t first = words.size();
+        words.resize(first + 4 * std::size_t(texelsOf(net)), 0);
+        for (std::size_t k = 0; k < net.size(); ++k) {
+            if (isWide_)
+                words[first + k] = net[k];
+            else
+                words[first + k / 2] |= (net[k] - baseOf(net)) << (16 * (k % 2));
+        }
+    }
+
+    const Surface& surface_;
+    bool isWide_ = false;
+};
+
+} // namespace
+
+SurfaceRecords recordsOf(const Surface& surface) {
+    const auto mostTouches = [](std::uint32_t most, const Edge& edge) { return std::max(most, edge.touchCount); };
+    if (surface.faces.size() >= kMostFaces || surface.corners.size() >= kMostCorners ||
+        std::accumulate(surface.edges.begin(), surface.edges.end(), 0u, mostTouches) >= kMostEdgeTouches)
+        fail(Failure::input, "a surface of {} faces and {} corners is more than {} faces, {} corners or {} faces an edge",
+             surface.faces.size(), surface.corners.size(), kMostFaces, kMostCorners, kMostEdgeTouches);
+    SurfaceRecords records;
+    std::vector<std::uint32_t>& words = records.words;
+    const auto texel = [&] { return std::uint32_t(words.size() / 4); };
+    records.firstFace = appendRecords<kFaceTexels>(words, surface.faces);
+    const NetWriter nets(surface);
+    records.firstPatch = texel();
+    records.hasWideNets = nets.isWide();
+    nets.append(words);
+    records.firstEdge = texel();
+    appendEdges(words, surface);
+    records.firstCorner = texel();
+    appendCorners(words, surface);
+    records.firstTouch = texel();
+    appendTouches(words, surface);
+    return records;
+}
+
+} // namespace relief
