@@ -19,11 +19,10 @@ struct Entry {
     MeshError error;
     std::uint64_t triangles = 0;
     double disk = 0, resident = 0, uploaded = 0; ///< bytes; 0: not for that
-    Origin residentOrigin = Origin::computed;
     Traffic traffic;
     std::optional<Saving> saving;  ///< what is drawn: a surface,
     std::optional<DenseMesh> mesh; ///< or a mesh
-    bool isTimed = false;          ///< the device holds it as the entry says
+    bool isTimed = false;
     std::vector<Value> details;
 };
 
@@ -45,7 +44,7 @@ public:
             for (const MapFormat format : kFormats) addSurface(entries, tolerance, format);
             addDense(entries, tolerance);
             addSimplified(entries, tolerance);
-            looks_.judge(tolerance, drawables(entries));
+            looks_.judge(tolerance, drawables(entries, tolerance == all.front()));
             for (const Entry& entry : entries) addRow(entry, tolerance);
             bench_.progress.advance();
         }
@@ -153,13 +152,13 @@ private:
         const MeshCounts counts = contest_.countsOf(saving);
         Entry entry{.name = fmt::format("cage + {} map", nameOf(saving.format)), .error = contest_.errorOf(saving)};
         entry.triangles = counts.triangles;
-        entry.resident = residentOf(saving);
-        if (saving.format == MapFormat::real) entry.residentOrigin = Origin::measured, entry.isTimed = true;
+        const std::unique_ptr<Model> model = contest_.model(saving);
+        entry.resident = double(model->byteCount());
+        entry.isTimed = true;
         entry.uploaded = double(posedCageBytes(contest_.subject().cage.positions.size()));
         entry.traffic = surfaceTraffic({.residentBytes = std::uint64_t(entry.resident),
                                         .calls = counts.vertices,
-                                        .heightBytes = fetchedTexelBytes(saving.format),
-                                        .hasTexCoords = contest_.subject().cage.hasTexCoords()});
+                                        .evaluation = {model->hasTexCoords(), model->hasWideNets(), saving.format}});
         entry.saving = saving;
         entry.details = {number("map columns", saving.side), number("rate", saving.rate),
                          number("isolation", saving.isolation)};
@@ -241,13 +240,15 @@ private:
         std::ranges::reverse(simplified_);
     }
 
-    std::vector<Drawable> drawables(const std::vector<Entry>& entries) {
+    /// Maps of halves and of 16 bits look as floats do: they are drawn with all others, or not at all.
+    static std::vector<Drawable> drawables(const std::vector<Entry>& entries, bool withAll) {
         std::vector<Drawable> all;
-        // Halves and 16 bits look as floats do.
-        for (const Entry& entry : entries)
-            if (entry.mesh ||
-                (entry.saving && entry.saving->format != MapFormat::half && entry.saving->format != MapFormat::unorm16))
+        for (const Entry& entry : entries) {
+            const bool isAlike = entry.saving && (entry.saving->format == MapFormat::half ||
+                                                  entry.saving->format == MapFormat::unorm16);
+            if (entry.mesh || (entry.saving && (withAll || !isAlike)))
                 all.push_back({entry.name, entry.saving, entry.mesh ? &*entry.mesh : nullptr, entry.isTimed});
+        }
         return all;
     }
 
@@ -257,7 +258,10 @@ private:
         row.add("hausdorff", "of the diagonal", Origin::measured, entry.error.hausdorff);
         row.add("triangles", "triangles", Origin::measured, double(entry.triangles));
         row.add("disk", "bytes", Origin::measured, entry.disk);
-        if (entry.resident > 0) row.add("resident", "bytes", entry.residentOrigin, entry.resident);
+        if (entry.resident > 0) {
+            const Origin origin = entry.mesh ? Origin::computed : Origin::measured;
+            row.add("resident", "bytes", origin, entry.resident);
+        }
         if (entry.traffic.least > 0) {
             row.add("read a frame, least", "bytes", Origin::computed, double(entry.traffic.least));
             row.add("read a frame, cacheless", "bytes", Origin::computed, double(entry.traffic.cacheless));

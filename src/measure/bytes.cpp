@@ -6,12 +6,12 @@
 namespace relief {
 namespace {
 
-// What shaders/limit.glsl and displaced.glsl read for one point of a regular bicubic patch.
-constexpr std::uint64_t kFaceRecord = 32, kPatchRecord = 32; ///< two texels of 16 bytes each
-constexpr std::uint64_t kTreeWords = 2 * 4;                  ///< the root, and one entry below it
-constexpr std::uint64_t kPatchPoints = 16 * (4 + 16);        ///< an index and a point
-constexpr std::uint64_t kTexPatchPoints = 16 * (4 + 8);
-constexpr std::uint64_t kHeightTexels = 5 * 4; ///< the height and its central differences, four texels each
+// What shaders/limit.glsl and heights.glsl read for one point of a regular bicubic patch.
+constexpr std::uint64_t kRootAndPatch = 2 * 16; ///< texels
+constexpr std::uint64_t kTreeWords = 2 * 4;     ///< the root, and one entry below it
+constexpr std::uint64_t kNet = 16 * 2, kWideNet = 16 * 4;
+constexpr std::uint64_t kPoints = 16 * 16, kTexPoints = 16 * 8;
+constexpr std::uint64_t kHeightTexels = 12; ///< around the height and its central differences
 
 } // namespace
 
@@ -24,20 +24,10 @@ Traffic denseTraffic(const DenseLayout& layout, const MeshCounts& counts, std::u
             .cacheless = layout.vertexBytes() * vertexCalls + std::uint64_t(layout.indexBytes) * 3 * counts.triangles};
 }
 
-int fetchedTexelBytes(MapFormat format) {
-    switch (format) {
-    case MapFormat::real: return 4;
-    case MapFormat::half:
-    case MapFormat::unorm16:
-    case MapFormat::bc4: return 2;
-    case MapFormat::unorm8: return 1;
-    }
-    return 0;
-}
-
-std::uint64_t evaluationBytes(int heightBytes, bool hasTexCoords) {
-    return kFaceRecord + kPatchRecord + kTreeWords + kPatchPoints + (hasTexCoords ? kTexPatchPoints : 0) +
-           kHeightTexels * std::uint64_t(heightBytes);
+std::uint64_t evaluationBytes(const Evaluation& evaluation) {
+    const std::uint64_t net = evaluation.hasWideNets ? kWideNet : kNet;
+    return kRootAndPatch + kTreeWords + net + kPoints + (evaluation.hasTexCoords ? net + kTexPoints : 0) +
+           kHeightTexels * (evaluation.format == MapFormat::bc4 ? 8 : 4);
 }
 
 Traffic surfaceTraffic(const SurfaceTrafficDesc& desc) {
@@ -45,7 +35,7 @@ Traffic surfaceTraffic(const SurfaceTrafficDesc& desc) {
     // A diced mesh is written once and read back by the draw.
     const std::uint64_t written = residentBytes(kDiced, desc.diced);
     return {.least = desc.residentBytes + 2 * written,
-            .cacheless = desc.calls * evaluationBytes(desc.heightBytes, desc.hasTexCoords) + 2 * written};
+            .cacheless = desc.calls * evaluationBytes(desc.evaluation) + 2 * written};
 }
 
 std::uint64_t posedCageBytes(std::uint64_t cagePoints) { return 12 * cagePoints; }

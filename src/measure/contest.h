@@ -36,7 +36,7 @@ public:
 
     const Surface& surface(int isolation);
     const HeightMap& map(int side, MapFormat format);
-    std::unique_ptr<Model> model(const Saving& saving); ///< with a float map that holds what the format leaves
+    std::unique_ptr<Model> model(const Saving& saving);
     DenseMesh mesh(const Saving& saving);
 
     MeshError errorOf(const DenseMesh& mesh) const;

@@ -89,7 +89,7 @@ Comparison compareResults(const Results& before, const Results& after, double to
 
 // --- the model of bytes -------------------------------------------------------------------------------------------
 
-/// The same map of another size: each texel is the mean of what it covers.
+/// The same map in other texels, 32-bit floats: those whose lookups come nearest, by least squares.
 HeightMap resampled(const HeightMap& map, int width, int height);
 
 /// How a dense mesh is kept on the device.
@@ -115,18 +115,22 @@ struct Traffic {
 /// `vertexCalls`: of the vertex shader.
 Traffic denseTraffic(const DenseLayout& layout, const MeshCounts& counts, std::uint64_t vertexCalls);
 
+/// What one evaluation of a bicubic patch with its height reads.
+struct Evaluation {
+    bool hasTexCoords = true;
+    bool hasWideNets = false; ///< as Model
+    MapFormat format = MapFormat::real;
+};
+/// Records, tree, 16 points with their numbers, 12 texels of the map: a word each, of BC4 two.
+std::uint64_t evaluationBytes(const Evaluation& evaluation);
+
 struct SurfaceTrafficDesc {
     std::uint64_t residentBytes = 0;
     std::uint64_t calls = 0; ///< evaluations of the surface
-    int heightBytes = 4;     ///< a texel
-    bool hasTexCoords = true;
+    Evaluation evaluation;
     MeshCounts diced; ///< dicing: the mesh that is written and read again, or none
 };
 Traffic surfaceTraffic(const SurfaceTrafficDesc& desc);
-/// That a lookup without caches fetches for one of its four texels; of BC4 a block a lookup.
-int fetchedTexelBytes(MapFormat format);
-/// Bytes that one evaluation of a bicubic patch fetches: records, tree, 16 points with their indices, 20 texels.
-std::uint64_t evaluationBytes(int heightBytes, bool hasTexCoords);
 
 /// Sent to the device for one pose: the cage's points, three floats each, or what moves of a dense mesh.
 std::uint64_t posedCageBytes(std::uint64_t cagePoints);

@@ -1,38 +1,97 @@
+// A map in fewer texels: the least-squares fit of what lookups read of it.
 #include <algorithm>
+#include <cmath>
 
 #include "measure/measure.h"
 
 namespace relief {
 namespace {
 
-/// Texels 0..count-1 of a line as means of what they cover of `from`.
-void shrinkLine(std::span<const float> from, std::span<float> to) {
-    const double step = double(from.size()) / double(to.size());
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        const double first = double(i) * step, end = std::min(double(i + 1) * step, double(from.size()));
-        double sum = 0;
-        for (auto k = std::size_t(first); k < from.size() && double(k) < end; ++k)
-            sum += from[k] * (std::min(end, double(k) + 1) - std::max(first, double(k)));
-        to[i] = float(sum / (end - first));
+/// Where a point of a line lies between the centres of its texels.
+struct Place {
+    std::size_t first = 0, second = 0;
+    double share = 0; ///< of the second
+};
+
+Place placeOf(double x, std::size_t count, Wrap wrap) {
+    const double at = x * double(count) - 0.5, whole = std::floor(at);
+    const auto texel = [&](double i) {
+        if (wrap == Wrap::clamp) return std::size_t(std::clamp(i, 0.0, double(count - 1)));
+        return std::size_t(i + double(count)) % count;
+    };
+    return {texel(whole), texel(whole + 1), at - whole};
+}
+
+/// Fits lines of `to` texels to lines of `from`: both are piecewise linear, and the sum of squared differences at two
+/// points a texel is the least. Its normal equations have three entries a row; Gauss and Seidel's sweeps leave a
+/// quarter of the error each, or less.
+class LineFit {
+public:
+    LineFit(std::size_t from, std::size_t to, Wrap wrap) : diagonal_(to, 0), after_(to, 0), right_(to) {
+        const std::size_t count = 2 * std::max(from, to);
+        for (std::size_t k = 0; k < count; ++k) {
+            const double x = (double(k) + 0.5) / double(count);
+            from_.push_back(placeOf(x, from, wrap));
+            const Place& p = to_.emplace_back(placeOf(x, to, wrap));
+            diagonal_[p.first] += (1 - p.share) * (1 - p.share);
+            diagonal_[p.second] += p.share * p.share;
+            if (p.first == p.second)
+                diagonal_[p.first] += 2 * p.share * (1 - p.share);
+            else
+                after_[p.first] += p.share * (1 - p.share); // the second is the one after the first
+        }
     }
+
+    void fit(std::span<const float> from, std::span<float> to) {
+        std::ranges::fill(right_, 0);
+        for (std::size_t k = 0; k < from_.size(); ++k) {
+            const Place &f = from_[k], &t = to_[k];
+            const double value = std::lerp(double(from[f.first]), double(from[f.second]), f.share);
+            right_[t.first] += (1 - t.share) * value;
+            right_[t.second] += t.share * value;
+        }
+        const std::size_t n = to.size();
+        std::vector<double> x(n);
+        for (std::size_t i = 0; i < n; ++i) x[i] = right_[i] / diagonal_[i];
+        for (int sweep = 0; sweep < 24 && n > 1; ++sweep)
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::size_t before = (i + n - 1) % n, next = (i + 1) % n;
+                x[i] = (right_[i] - after_[before] * x[before] - after_[i] * x[next]) / diagonal_[i];
+            }
+        std::ranges::copy(x, to.begin());
+    }
+
+private:
+    std::vector<Place> from_, to_;
+    std::vector<double> diagonal_, after_, right_; ///< entry (i, i), entry (i, i + 1), and what they have to make
+};
+
+/// The same map on its side, so that lines are columns.
+std::vector<float> turned(std::span<const float> texels, std::size_t width) {
+    const std::size_t height = texels.size() / width;
+    std::vector<float> columns(texels.size());
+    for (std::size_t y = 0; y < height; ++y)
+        for (std::size_t x = 0; x < width; ++x) columns[x * height + y] = texels[y * width + x];
+    return columns;
+}
+
+std::vector<float> fitLines(std::span<const float> texels, std::size_t from, std::size_t to, Wrap wrap) {
+    if (from == to) return {texels.begin(), texels.end()};
+    LineFit line(from, to, wrap);
+    std::vector<float> fitted(texels.size() / from * to);
+    for (std::size_t i = 0; i < texels.size() / from; ++i)
+        line.fit(texels.subspan(i * from, from), std::span(fitted).subspan(i * to, to));
+    return fitted;
 }
 
 } // namespace
 
 HeightMap resampled(const HeightMap& map, int width, int height) {
-    if (width == map.width && height == map.height) return map;
-    std::vector<float> rows(std::size_t(width) * std::size_t(map.height));
-    for (std::size_t y = 0; y < std::size_t(map.height); ++y)
-        shrinkLine(std::span(map.texels).subspan(y * std::size_t(map.width), std::size_t(map.width)),
-                   std::span(rows).subspan(y * std::size_t(width), std::size_t(width)));
-    std::vector<float> texels(std::size_t(width) * std::size_t(height));
-    std::vector<float> column(rows.size() / std::size_t(width)), shrunk(texels.size() / std::size_t(width));
-    for (std::size_t x = 0; x < std::size_t(width); ++x) {
-        for (std::size_t y = 0; y < column.size(); ++y) column[y] = rows[y * std::size_t(width) + x];
-        shrinkLine(column, shrunk);
-        for (std::size_t y = 0; y < shrunk.size(); ++y) texels[y * std::size_t(width) + x] = shrunk[y];
-    }
-    return makeHeightMap(width, height, std::move(texels), map.mid, map.scale, map.wrap);
+    const auto from = std::size_t(map.width), to = std::size_t(width);
+    const std::vector<float> rows = fitLines(map.texels, from, to, map.wrap);
+    const std::vector<float> columns =
+        fitLines(turned(rows, to), std::size_t(map.height), std::size_t(height), map.wrap);
+    return makeHeightMap(width, height, turned(columns, std::size_t(height)), map.mid, map.scale, map.wrap);
 }
 
 } // namespace relief

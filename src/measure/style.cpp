@@ -51,8 +51,9 @@ million. Distances go both ways, from samples of one surface to the nearest poin
 of both mean squares. A contestant is as small as it can be with a measured RMS distance within the tolerance.</li>
 <li><b>Cage and map.</b> Resident is everything that the device holds of the surface: patches, trees, owners, refined points,
 texture coordinates, and the map with all its mips. Three things are saved at: the depth of refinement around extraordinary
-vertices, the size of the map, and its format. The device of today holds floats: other formats have had their geometry made
-from decoded values, and their bytes follow by arithmetic (marked ∗). On disk: the cage as OBJ text, and the map without mips.
+vertices, the size of the map, and its format; the device holds and draws all of them. Maps of another size are fitted by least
+squares, as a baker fits them, while the vertices of dense meshes lie on the surface, as exporters put them: vertices fitted
+likewise would come nearer than theirs do. On disk: the cage as OBJ text, and the map without mips.
 Few bytes come first: the smallest map that meets a tolerance can ask for more triangles than the dense mesh has, and times and
 reads are those of its own rate.</li>
 <li><b>Dense mesh.</b> Each distinct sample once, again where texture coordinates part. Raw: position, normal and texture
@@ -62,8 +63,8 @@ meshoptimizer in steps of a square root of two. Draco at its encoder's own speed
 <li><b>Read a frame, with all caches.</b> Every resident byte once. Diced triangles are written to memory and read again.</li>
 <li><b>Read a frame, without caches.</b> A dense mesh: 32 bytes for every call of the vertex shader that the device counted
 (three a triangle where nothing was counted), and its indices. A surface: for every evaluation the records of face and patch
-(64 bytes), two words of the tree, sixteen points with their indices (320), as many texture points (192), and five bilinear
-lookups of the map, four texels each; of BC4 a block of 8 bytes a lookup.</li>
+(32 bytes), two words of the tree, sixteen points with their numbers of 16 bits (288), as many texture points (160), and twelve
+texels of the map, a word of 4 bytes each; of BC4 a block of 8 bytes each.</li>
 <li><b>Uploaded for a pose.</b> The cage's points, 12 bytes each, against positions and normals of the dense mesh.</li>
 <li><b>Times.</b> Rounds draw every contestant once, so that a slow spell of the machine hits all alike; the first round is
 not counted. Median, and the 5th to 95th percentile. No shadows; four samples a pixel; the camera turns around the object.</li>

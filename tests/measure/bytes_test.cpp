@@ -26,36 +26,67 @@ TEST(Traffic, ofADenseMeshIsBetweenItsBytesAndItsCalls) {
 }
 
 TEST(Traffic, ofAnEvaluationIsItsRecordsPointsAndTexels) {
-    // Face and patch 32 each, 2 words of the tree, 16 points of 16 bytes with an index, 20 texels.
-    EXPECT_EQ(evaluationBytes(4, false), 64u + 8 + 16 * 20 + 20 * 4);
-    EXPECT_EQ(evaluationBytes(2, true), 64u + 8 + 16 * 20 + 16 * 12 + 20 * 2);
-    EXPECT_EQ(fetchedTexelBytes(MapFormat::bc4), 2); // a block of 8 bytes a lookup of four
+    // The face's root and the patch 16 each, 2 words of the tree, 16 points of 16 bytes with 2 for each number, 12 texels.
+    EXPECT_EQ(evaluationBytes({.hasTexCoords = false}), 32u + 8 + 16 * 18 + 12 * 4);
+    EXPECT_EQ(evaluationBytes({.format = MapFormat::half}), 32u + 8 + 16 * 18 + 16 * 10 + 12 * 4);
+    EXPECT_EQ(evaluationBytes({.hasWideNets = true}), 32u + 8 + 16 * 20 + 16 * 12 + 12 * 4);
+    EXPECT_EQ(evaluationBytes({.format = MapFormat::bc4}) - evaluationBytes({}), 12u * 4); // a block a texel
 }
 
 TEST(Traffic, ofASurfaceHasItsDicedMeshTwice) {
     const Traffic drawn = surfaceTraffic({.residentBytes = 1000, .calls = 10});
     EXPECT_EQ(drawn.least, 1000u);
-    EXPECT_EQ(drawn.cacheless, 10 * evaluationBytes(4, true));
+    EXPECT_EQ(drawn.cacheless, 10 * evaluationBytes({}));
     const Traffic diced = surfaceTraffic({.residentBytes = 1000, .calls = 10, .diced = {10, 12}});
     EXPECT_EQ(diced.least, 1000u + 2 * (10 * 32 + 12 * 12));
-    EXPECT_EQ(diced.cacheless, 10 * evaluationBytes(4, true) + 2 * (10 * 32 + 12 * 12));
+    EXPECT_EQ(diced.cacheless, 10 * evaluationBytes({}) + 2 * (10 * 32 + 12 * 12));
 }
 
 // --- maps of other sizes
 
-TEST(Resampling, keepsTheMeanAndRamps) {
-    std::vector<float> texels;
-    for (int y = 0; y < 9; ++y)
-        for (int x = 0; x < 12; ++x) texels.push_back(float(x) + 10 * float(y));
-    const HeightMap map = makeHeightMap(12, 9, texels, 0, 1, Wrap::clamp);
-    const HeightMap half = resampled(map, 6, 3);
-    EXPECT_FLOAT_EQ(half.texels[0], 0.5f + 10); // columns 0 and 1, rows 0 to 2
-    EXPECT_FLOAT_EQ(half.texels[17], 10.5f + 70);
-    const HeightMap odd = resampled(map, 5, 4); // texels that cover parts of others
+/// What lookups find at a grid of points, less what they find in the other map: root of the mean square.
+double lookupError(const HeightMap& a, const HeightMap& b) {
     double sum = 0;
-    for (const float texel : odd.texels) sum += texel;
-    EXPECT_NEAR(sum / 20, 5.5 + 40, 1e-4);
-    EXPECT_EQ(resampled(map, 12, 9).texels, map.texels);
+    constexpr int kSide = 97;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const dvec2 st = (dvec2(i % kSide, i / kSide) + 0.5) / double(kSide);
+        sum += std::pow(sampleHeight(a, st).h - sampleHeight(b, st).h, 2.0);
+    }
+    return std::sqrt(sum / (kSide * kSide));
+}
+
+HeightMap periodic(int width, int height, Wrap wrap) {
+    std::vector<float> texels;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            texels.push_back(float(std::sin(6.2831853 * 3 * (x + 0.5) / width) * std::cos(6.2831853 * (y + 0.5) / height)));
+    return makeHeightMap(width, height, texels, 0.2, 1.5, wrap);
+}
+
+// Where each texel of a map becomes three a side that interpolate it, nothing is lost on the way back.
+TEST(Resampling, findsTheTexelsThatAFinerMapWasMadeOf) {
+    for (const Wrap wrap : {Wrap::repeat, Wrap::clamp}) {
+        const HeightMap coarse = periodic(12, 9, wrap);
+        HeightMap fine = coarse;
+        fine.width = 36, fine.height = 27, fine.texels.clear();
+        for (int i = 0; i < 36 * 27; ++i) {
+            const dvec2 st((i % 36 + 0.5) / 36, 1 - (i / 36 + 0.5) / 27);
+            fine.texels.push_back(float(sampleHeight(coarse, st).h / 1.5 + 0.2));
+        }
+        const HeightMap back = resampled(fine, 12, 9);
+        for (std::size_t i = 0; i < back.texels.size(); ++i) EXPECT_NEAR(back.texels[i], coarse.texels[i], 1e-5) << i;
+    }
+}
+
+TEST(Resampling, comesNearerThanMeansDo) {
+    const HeightMap map = periodic(96, 96, Wrap::repeat);
+    const HeightMap fitted = resampled(map, 24, 24);
+    std::vector<float> means(24 * 24, 0);
+    for (int i = 0; i < 96 * 96; ++i) means[std::size_t(i / 96 / 4 * 24 + i % 96 / 4)] += map.texels[std::size_t(i)] / 16;
+    const HeightMap averaged = makeHeightMap(24, 24, means, 0.2, 1.5, Wrap::repeat);
+    EXPECT_LT(lookupError(fitted, map), 0.5 * lookupError(averaged, map));
+    EXPECT_EQ(resampled(map, 96, 96).texels, map.texels);
+    EXPECT_EQ(resampled(map, 1, 1).texels.size(), 1u);
 }
 
 // --- meshes
