@@ -12,7 +12,7 @@ picture() { # NAME CAGE OPTIONS...
     name=$1
     cage=$2
     shift 2
-    "$relief" render "$meshes/$cage.obj" "$@" -q --json -o "$out/$name.png" >"$out/stats.json"
+    "$relief" render "$meshes/$cage.obj" --map-format unorm16 "$@" -q --json -o "$out/$name.png" >"$out/stats.json"
     printf '%-22s %8s %8s %9s %7s %10s %7.0f\n' "$out/$name.png" "$(kib "$(field cage_bytes)")" "$(kib "$(field map_bytes)")" \
         "$(kib "$(field dense_bytes)")" "$(awk "BEGIN { printf \"%.1f\", $(field dense_bytes) / ($(field cage_bytes) + $(field map_bytes)) }")" \
         "$(field triangles)" "$(field frame_ms)"
@@ -43,7 +43,7 @@ picture wireframe octopus --height "$maps/octopus.exr" --show wireframe --azimut
 rm -f "$out/stats.json"
 
 # Per frame only the cage's 1958 points go to the device.
-"$relief" animate "$meshes/octopus.obj" --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
+"$relief" animate "$meshes/octopus.obj" --map-format unorm16 --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
     --deform "twist(axis=y, angle=35*sin(pi*t)) wave(axis=x, amplitude=0.035, wavelength=0.5, speed=0.25, along=y) \
         squash(axis=y, amount=0.08*sin(2*pi*t))" \
     --frames 0:47 --azimuth -10 --elevation 14 --fov 24 --edge-pixels 2 --spacing fractional --size 560,350 \

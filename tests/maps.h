@@ -38,8 +38,8 @@ inline HeightMap levelOf(const HeightMap& map, const MapWords& words, std::uint3
             case MapFormat::unorm16: value = map.base + map.range * float(pair) / 65535; break;
             case MapFormat::unorm8: value = map.base + map.range * float(bytes[i]) / 255; break;
             case MapFormat::bc4:
-                value = map.base +
-                        map.range * decodeBc4(std::span<const std::uint8_t, 8>(bytes + 8 * block, 8))[y % 4 * 4 + x % 4];
+                value = map.base + map.range * decodeBc4(std::span<const std::uint8_t, 8>(bytes + 8 * block,
+                                                                                          8))[y % 4 * 4 + x % 4];
             }
             texels.push_back(value);
         }

@@ -1,5 +1,6 @@
 #include "app/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 
@@ -160,11 +161,12 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     listed(addWord(app, "--wrap", args.wrap, "outside the map: repeat it, or clamp to its border (repeat)",
                    {"repeat", "clamp"}),
            "WRAP", group);
-    listed(addWord(app, "--map-format", args.mapFormat,
-                   "the map on the device: float, half, unorm16, unorm8, bc4, or auto: the smallest that keeps what the "
-                   "file says (auto)",
-                   {"auto", "float", "half", "unorm16", "unorm8", "bc4"}),
-           "FORMAT", group);
+    listed(
+        addWord(app, "--map-format", args.mapFormat,
+                "the map on the device: float, half, unorm16, unorm8, bc4, or auto: the smallest that keeps what the "
+                "file says (auto)",
+                {"auto", "float", "half", "unorm16", "unorm8", "bc4"}),
+        "FORMAT", group);
 }
 
 void addTime(CLI::App& app, PoseArgs& args) {
@@ -311,13 +313,16 @@ std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, c
 
 namespace {
 
-/// Of --map-format; nothing for auto.
+constexpr std::pair<const char*, MapFormat> kMapFormats[] = {{"float", MapFormat::real},
+                                                             {"half", MapFormat::half},
+                                                             {"unorm16", MapFormat::unorm16},
+                                                             {"unorm8", MapFormat::unorm8},
+                                                             {"bc4", MapFormat::bc4}};
+
+/// Nothing for auto.
 std::optional<MapFormat> mapFormatOf(const std::string& word) {
-    if (word == "float") return MapFormat::real;
-    if (word == "half") return MapFormat::half;
-    if (word == "unorm16") return MapFormat::unorm16;
-    if (word == "unorm8") return MapFormat::unorm8;
-    if (word == "bc4") return MapFormat::bc4;
+    for (const auto& [name, format] : kMapFormats)
+        if (word == name) return format;
     return {};
 }
 
@@ -331,6 +336,10 @@ void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path) {
 }
 
 } // namespace
+
+std::string wordOf(MapFormat format) {
+    return std::ranges::find(kMapFormats, format, &std::pair<const char*, MapFormat>::second)->first;
+}
 
 HeightSpace heightSpaceOf(const std::string& word) {
     return word == "stretch" ? HeightSpace::stretch : HeightSpace::absolute;

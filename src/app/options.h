@@ -128,6 +128,8 @@ std::vector<dvec3> outlineOf(const Loaded& loaded);
 /// rest.
 std::unique_ptr<Poser> stretchHeights(Device& device, Model& model, const Loaded& loaded,
                                       const std::string& heightSpace);
+/// As --map-format says it.
+std::string wordOf(MapFormat format);
 HeightSpace heightSpaceOf(const std::string& word);
 
 /// Throws when the validation layer (RELIEF_VALIDATE=1) complained.

@@ -20,6 +20,7 @@ struct RenderArgs {
 struct Drawn {
     Picture picture;
     std::string device;
+    std::string mapFormat; ///< empty without a map
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
     std::uint64_t peakDeviceBytes = 0; ///< of everything that the frame has on the device
     double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
@@ -37,6 +38,7 @@ void report(const RenderArgs& args, const Drawn& drawn) {
                                     {"max_rate", stats.maxRate},
                                     {"cage_bytes", drawn.cageBytes},
                                     {"map_bytes", drawn.mapBytes},
+                                    {"map_format", drawn.mapFormat},
                                     {"vertices", stats.vertexCount},
                                     {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
                                     {"device_bytes", drawn.deviceBytes},
@@ -83,6 +85,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
                          .albedo = shading.albedo ? &*shading.albedo : nullptr});
     const std::unique_ptr<Poser> poser = stretchHeights(device, model, loaded, args.picture.heightSpace);
     Drawn drawn{.device = device.traits().name,
+                .mapFormat = loaded.height ? wordOf(loaded.height->format) : "",
                 .cageBytes = loaded.cage.byteCount(),
                 .mapBytes = model.heightBytes(),
                 .deviceBytes = model.byteCount(),

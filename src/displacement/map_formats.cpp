@@ -74,9 +74,7 @@ std::vector<float> valuesOf(std::span<const std::uint8_t> blocks, int width, int
 /// Numbers that stand for the range of a map: 0 to this many.
 float stepsOf(MapFormat format) { return format == MapFormat::unorm16 ? 65535 : 255; }
 
-std::size_t bitsOf(MapFormat format) {
-    return format == MapFormat::real ? 32 : format == MapFormat::unorm8 ? 8 : 16;
-}
+std::size_t bitsOf(MapFormat format) { return format == MapFormat::real ? 32 : format == MapFormat::unorm8 ? 8 : 16; }
 
 /// A value as the map's format keeps it, blocks aside, and what a reader makes of that.
 std::uint32_t packed(const HeightMap& map, float value) {
@@ -105,8 +103,8 @@ MipLevel halved(const MipLevel& fine) {
     };
     for (int y = 0; y < coarse.height; ++y)
         for (int x = 0; x < coarse.width; ++x)
-            coarse.texels.push_back(0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
-                                             at(2 * x + 1, 2 * y + 1)));
+            coarse.texels.push_back(
+                0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)));
     return coarse;
 }
 

@@ -244,8 +244,8 @@ private:
     static std::vector<Drawable> drawables(const std::vector<Entry>& entries, bool withAll) {
         std::vector<Drawable> all;
         for (const Entry& entry : entries) {
-            const bool isAlike = entry.saving && (entry.saving->format == MapFormat::half ||
-                                                  entry.saving->format == MapFormat::unorm16);
+            const bool isAlike =
+                entry.saving && (entry.saving->format == MapFormat::half || entry.saving->format == MapFormat::unorm16);
             if (entry.mesh || (entry.saving && (withAll || !isAlike)))
                 all.push_back({entry.name, entry.saving, entry.mesh ? &*entry.mesh : nullptr, entry.isTimed});
         }

@@ -89,8 +89,8 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     words_ = uploadWords(device, "tree", s.tree);
 
     const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
-    heightPyramid_ = std::make_unique<HeightPyramid>(
-        desc.height != nullptr ? HeightPyramid(*desc.height, mapRoundOff_) : HeightPyramid());
+    heightPyramid_ = std::make_unique<HeightPyramid>(desc.height != nullptr ? HeightPyramid(*desc.height, mapRoundOff_)
+                                                                            : HeightPyramid());
     faceReaches_ = relief::faceReaches(s, desc.height, *heightPyramid_);
     faceBounds_ = relief::faceBounds(s, refined, faceReaches_);
     if (enclosesVolume(s))

@@ -59,7 +59,7 @@ public:
     [[nodiscard]] std::vector<float> uniformRates(float rate) const;
 
     [[nodiscard]] bool isDense() const { return isDense_; }
-    [[nodiscard]] const Buffer& indices() const { return indices_; } ///< of a dense mesh
+    [[nodiscard]] const Buffer& indices() const { return indices_; }          ///< of a dense mesh
     [[nodiscard]] const Buffer& meshVertices() const { return mesh_.buffer; } ///< position with height, normal
     [[nodiscard]] std::uint32_t indexCount() const { return indexCount_; }
     [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; } ///< of a dense mesh

@@ -124,7 +124,8 @@ SurfaceRecords recordsOf(const Surface& surface) {
     const auto mostTouches = [](std::uint32_t most, const Edge& edge) { return std::max(most, edge.touchCount); };
     if (surface.faces.size() >= kMostFaces || surface.corners.size() >= kMostCorners ||
         std::accumulate(surface.edges.begin(), surface.edges.end(), 0u, mostTouches) >= kMostEdgeTouches)
-        fail(Failure::input, "a surface of {} faces and {} corners is more than {} faces, {} corners or {} faces an edge",
+        fail(Failure::input,
+             "a surface of {} faces and {} corners is more than {} faces, {} corners or {} faces an edge",
              surface.faces.size(), surface.corners.size(), kMostFaces, kMostCorners, kMostEdgeTouches);
     SurfaceRecords records;
     std::vector<std::uint32_t>& words = records.words;

@@ -36,10 +36,20 @@ struct ShaderConstants {
     bool hasWideNets = false;
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
-        return {isGenericBasis, hasTexCoords, hasHeight,    std::uint32_t(normal),
-                wantsTexCoords, show,         hasAlbedoMap, groupSize,
-                hasMips,        isCommon,     stretches,    hasMotion,
-                std::uint32_t(mapFormat), hasWideNets};
+        return {isGenericBasis,
+                hasTexCoords,
+                hasHeight,
+                std::uint32_t(normal),
+                wantsTexCoords,
+                show,
+                hasAlbedoMap,
+                groupSize,
+                hasMips,
+                isCommon,
+                stretches,
+                hasMotion,
+                std::uint32_t(mapFormat),
+                hasWideNets};
     }
 };
 

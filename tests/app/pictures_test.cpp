@@ -50,6 +50,24 @@ TEST_F(Drawn, everyShowIsAPictureOfItsOwn) {
     expectAllDifferent(pictures, 0.2);
 }
 
+TEST_F(Drawn, everyMapFormatDrawsTheSameInItsOwnBytes) {
+    const Image floats = draw("--map-format float");
+    const std::uint64_t texels = 64 * 64 + 32 * 32 + 16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1;
+    for (const auto& [format, bytes] : {std::pair{"half", 2 * texels + 2},
+                                        {"unorm16", 2 * texels + 2},
+                                        {"unorm8", texels + 3},
+                                        {"bc4", std::uint64_t(8 * (256 + 64 + 16 + 4 + 1 + 1 + 1))}}) {
+        const std::string target = folder_ / (std::string(format) + ".png");
+        const nlohmann::json json =
+            jsonOf(relief({"render", cagePath("ball"), "--height", folder_ / "h.exr", "-o", target},
+                          std::string("--scale 0.1 --size 96,96 --rate 8 --json --map-format ") + format));
+        EXPECT_EQ(json.at("map_bytes"), bytes) << format;
+        EXPECT_EQ(json.at("map_format"), format);
+        // A block of BC4 keeps eight heights: its slopes are rough.
+        EXPECT_LT(differingShare(readImage(target), floats), format == std::string("bc4") ? 0.12 : 0.005) << format;
+    }
+}
+
 TEST_F(Drawn, everyNormalIsAPictureOfItsOwn) {
     std::vector<std::pair<std::string, Image>> pictures;
     for (const char* normal : {"limit", "first-order", "full"}) // the curvature term grows with height times curvature

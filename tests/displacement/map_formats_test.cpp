@@ -121,7 +121,8 @@ TEST(Formats, ofHalvesRefuseWhatIsTooLarge) {
 TEST(Formats, ofFilesAreTheSmallestThatKeepThem) {
     const TemporaryFolder folder;
     Warnings warnings;
-    const Image image{.width = 4, .height = 2, .channels = 1, .texels = {0, 0.125f, 0.25f, 0.5f, 0.625f, 0.75f, 0.9f, 1}};
+    const Image image{
+        .width = 4, .height = 2, .channels = 1, .texels = {0, 0.125f, 0.25f, 0.5f, 0.625f, 0.75f, 0.9f, 1}};
     const auto load = [&](const char* name, SampleType type, std::optional<MapFormat> format = {}) {
         writeImage(folder / name, image, type);
         return loadHeightMap(folder / name, {.scale = 1, .format = format}, warnings.warn());

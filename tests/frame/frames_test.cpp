@@ -242,7 +242,6 @@ INSTANTIATE_TEST_SUITE_P(Files, FileFrames,
                                            "meshes/lantern.obj", "meshes/strawberry.obj", "meshes/octopus.obj",
                                            "bigguy.obj", "monsterfrog.obj", "car.obj"));
 
-
 // The specialised bicubic, Gregory and bilinear patches against OpenSubdiv's generic basis on the same device.
 TEST_F(Bases, specialisedPatchesEqualOpenSubdivsGenericBasis) {
     const HeightMap map = sineMap(64, 0.05);

@@ -26,7 +26,8 @@ TEST(Traffic, ofADenseMeshIsBetweenItsBytesAndItsCalls) {
 }
 
 TEST(Traffic, ofAnEvaluationIsItsRecordsPointsAndTexels) {
-    // The face's root and the patch 16 each, 2 words of the tree, 16 points of 16 bytes with 2 for each number, 12 texels.
+    // The face's root and the patch 16 each, 2 words of the tree, 16 points of 16 bytes with 2 for each number, 12
+    // texels.
     EXPECT_EQ(evaluationBytes({.hasTexCoords = false}), 32u + 8 + 16 * 18 + 12 * 4);
     EXPECT_EQ(evaluationBytes({.format = MapFormat::half}), 32u + 8 + 16 * 18 + 16 * 10 + 12 * 4);
     EXPECT_EQ(evaluationBytes({.hasWideNets = true}), 32u + 8 + 16 * 20 + 16 * 12 + 12 * 4);
@@ -59,7 +60,8 @@ HeightMap periodic(int width, int height, Wrap wrap) {
     std::vector<float> texels;
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
-            texels.push_back(float(std::sin(6.2831853 * 3 * (x + 0.5) / width) * std::cos(6.2831853 * (y + 0.5) / height)));
+            texels.push_back(
+                float(std::sin(6.2831853 * 3 * (x + 0.5) / width) * std::cos(6.2831853 * (y + 0.5) / height)));
     return makeHeightMap(width, height, texels, 0.2, 1.5, wrap);
 }
 
@@ -82,7 +84,8 @@ TEST(Resampling, comesNearerThanMeansDo) {
     const HeightMap map = periodic(96, 96, Wrap::repeat);
     const HeightMap fitted = resampled(map, 24, 24);
     std::vector<float> means(24 * 24, 0);
-    for (int i = 0; i < 96 * 96; ++i) means[std::size_t(i / 96 / 4 * 24 + i % 96 / 4)] += map.texels[std::size_t(i)] / 16;
+    for (int i = 0; i < 96 * 96; ++i)
+        means[std::size_t(i / 96 / 4 * 24 + i % 96 / 4)] += map.texels[std::size_t(i)] / 16;
     const HeightMap averaged = makeHeightMap(24, 24, means, 0.2, 1.5, Wrap::repeat);
     EXPECT_LT(lookupError(fitted, map), 0.5 * lookupError(averaged, map));
     EXPECT_EQ(resampled(map, 96, 96).texels, map.texels);
