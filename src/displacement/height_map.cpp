@@ -54,8 +54,10 @@ HeightMap finishMap(HeightMap map, const std::string& name) {
 
 /// The smallest format that holds every value of such a file.
 MapFormat formatOf(const ImageInfo& info) {
-    if (info.isFloat) return info.sampleBytes == 2 ? MapFormat::half : MapFormat::real;
-    return info.sampleBytes == 1 ? MapFormat::unorm8 : info.sampleBytes == 2 ? MapFormat::unorm16 : MapFormat::real;
+    if (info.sample == "half") return MapFormat::half;
+    if (info.sample == "uint16") return MapFormat::unorm16;
+    if (info.sample == "uint8") return MapFormat::unorm8;
+    return MapFormat::real;
 }
 
 void warnAbout(const ImageInfo& info, const std::string& path, const HeightOptions& options, const Warn& warn) {

@@ -90,27 +90,31 @@ float unpacked(const HeightMap& map, std::uint32_t bits) {
     return map.base + map.range * (float(bits) / stepsOf(map.format));
 }
 
-struct MipLevel {
+struct Level {
     int width = 0, height = 0;
-    std::vector<float> texels;
+    std::span<const float> texels;
 };
 
-MipLevel halved(const MipLevel& fine) {
-    MipLevel coarse{std::max(fine.width / 2, 1), std::max(fine.height / 2, 1), {}};
+/// The texels of the level after this one.
+std::vector<float> halved(const Level& fine) {
+    const int width = std::max(fine.width / 2, 1), height = std::max(fine.height / 2, 1);
     const auto at = [&](int x, int y) {
         return fine.texels[std::size_t(std::min(y, fine.height - 1)) * std::size_t(fine.width) +
                            std::size_t(std::min(x, fine.width - 1))];
     };
-    for (int y = 0; y < coarse.height; ++y)
-        for (int x = 0; x < coarse.width; ++x)
-            coarse.texels.push_back(
+    std::vector<float> coarse;
+    coarse.reserve(std::size_t(width) * std::size_t(height));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            coarse.push_back(
                 0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)));
     return coarse;
 }
 
-std::vector<float> unitOf(const HeightMap& map, std::vector<float> texels) {
-    for (float& texel : texels) texel = (texel - map.base) / map.range;
-    return texels;
+std::vector<float> unitOf(const HeightMap& map, std::span<const float> texels) {
+    std::vector<float> unit(texels.begin(), texels.end());
+    for (float& value : unit) value = (value - map.base) / map.range;
+    return unit;
 }
 
 std::vector<float> fromUnit(const HeightMap& map, std::vector<float> unit) {
@@ -118,28 +122,32 @@ std::vector<float> fromUnit(const HeightMap& map, std::vector<float> unit) {
     return unit;
 }
 
-/// Appends a level and returns what its readers find.
-std::vector<float> appendLevel(MapWords& to, const HeightMap& map, const MipLevel& level) {
+float largestDifference(std::span<const float> a, std::span<const float> b) {
+    float most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+}
+
+/// Appends a level; returns how far what its readers find is from its texels.
+float appendBlocks(MapWords& to, const HeightMap& map, const Level& level) {
     const std::size_t first = to.words.size();
-    to.firsts.push_back(std::uint32_t(first));
-    if (map.format == MapFormat::bc4) {
-        const bool isWhole = first == 0 && !map.blocks.empty();
-        const std::vector<std::uint8_t> blocks =
-            isWhole ? map.blocks : blocksOf(unitOf(map, level.texels), level.width, level.height);
-        to.words.resize(first + blocks.size() / 4);
-        std::memcpy(&to.words[first], blocks.data(), blocks.size());
-        return fromUnit(map, valuesOf(blocks, level.width, level.height));
-    }
-    const std::size_t bits = bitsOf(map.format), perWord = 32 / bits;
+    const std::vector<std::uint8_t> blocks =
+        first == 0 ? map.blocks : blocksOf(unitOf(map, level.texels), level.width, level.height);
+    to.words.resize(first + blocks.size() / 4);
+    std::memcpy(&to.words[first], blocks.data(), blocks.size());
+    return largestDifference(level.texels, fromUnit(map, valuesOf(blocks, level.width, level.height)));
+}
+
+float appendTexels(MapWords& to, const HeightMap& map, const Level& level) {
+    const std::size_t first = to.words.size(), bits = bitsOf(map.format), perWord = 32 / bits;
     to.words.resize(first + (level.texels.size() + perWord - 1) / perWord, 0);
-    std::vector<float> read;
-    read.reserve(level.texels.size());
+    float most = 0;
     for (std::size_t i = 0; i < level.texels.size(); ++i) {
         const std::uint32_t texel = packed(map, level.texels[i]);
         to.words[first + i / perWord] |= texel << (bits * (i % perWord));
-        read.push_back(unpacked(map, texel));
+        most = std::max(most, std::abs(unpacked(map, texel) - level.texels[i]));
     }
-    return read;
+    return most;
 }
 
 /// Bytes of one level: whole words.
@@ -219,13 +227,17 @@ HeightMap inFormat(const HeightMap& map, MapFormat format) {
 MapWords wordsOf(const HeightMap& map) {
     MapWords words;
     words.words.reserve(mapBytes(map.format, map.width, map.height) / 4);
-    MipLevel level{map.width, map.height, map.texels};
-    appendLevel(words, map, level);
+    const auto append = [&](const Level& level) {
+        words.firsts.push_back(std::uint32_t(words.words.size()));
+        return map.format == MapFormat::bc4 ? appendBlocks(words, map, level) : appendTexels(words, map, level);
+    };
+    Level level{map.width, map.height, map.texels};
+    append(level);
+    std::vector<float> texels;
     while ((level.width > 1 || level.height > 1) && words.firsts.size() < kMostMapLevels) {
-        level = halved(level);
-        const std::vector<float> read = appendLevel(words, map, level);
-        for (std::size_t i = 0; i < read.size(); ++i)
-            words.roundOff = std::max(words.roundOff, std::abs(read[i] - level.texels[i]));
+        texels = halved(level);
+        level = {std::max(level.width / 2, 1), std::max(level.height / 2, 1), texels};
+        words.roundOff = std::max(words.roundOff, append(level));
     }
     return words;
 }
