@@ -32,6 +32,8 @@ void checkTarget(const AnimateArgs& args) {
         if (args.resumes)
             fail(Failure::usage, "{}: --resume goes on with pictures, one a frame: -o 'frame.{{frame:4}}.png'",
                  args.target);
+        if (!args.picture.layers.empty())
+            fail(Failure::usage, "{}: layers go into pictures, one a frame: -o 'frame.{{frame:4}}.exr'", args.target);
         checkWritable(args.target);
         return;
     }

@@ -111,7 +111,8 @@ json ofDevices() {
                         {"largest_image_side", t.maxImageSide},
                         {"memory", t.heapBytes},
                         {"times_passes", t.timestampNanoseconds > 0},
-                        {"tessellated_vertices_a_draw", t.tessellatedVerticesPerDraw}});
+                        {"tessellated_vertices_a_draw", t.tessellatedVerticesPerDraw},
+                        {"mesh_triangles_in_flight", t.meshTrianglesInFlight}});
     return list;
 }
 

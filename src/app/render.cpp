@@ -1,3 +1,4 @@
+#include <future>
 #include <iostream>
 
 #include <malloc.h>
@@ -69,13 +70,17 @@ void report(const RenderArgs& args, const Drawn& drawn) {
 
 /// Memory goes back as soon as it is not needed: the peak is the frame itself, not everything that led to it.
 Drawn draw(const RenderArgs& args, Progress& progress) {
+    // A driver takes its time to load: it does so while files are read.
+    std::future<std::unique_ptr<Device>> opening = std::async(
+        std::launch::async, [&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
     Loaded loaded = load(args.surface, args.output);
     progress.advance();
     Shading shading = loadShading(args.picture);
     const std::vector<dvec3> points = outlineOf(loaded);
     progress.advance();
 
-    Device device({.name = args.picture.device});
+    const std::unique_ptr<Device> opened = opening.get();
+    Device& device = *opened;
     RenderOptions options = renderOptions(args.picture, device, points);
     if (shading.environment) options.lighting.environment = &*shading.environment;
     Model model(device, {.surface = &loaded.surface,

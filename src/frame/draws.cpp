@@ -80,29 +80,68 @@ std::span<const DrawBatch> Renderer::Parts::batchesOf(const Frame& frame, Pass p
     return pass == Pass::shadow || pass == Pass::cracks ? all : all.first(frame.plan.visibleBatchCount);
 }
 
-void Renderer::Parts::draw(VkCommandBuffer commands, const Frame& frame, Pass pass) {
+Rendering::Rendering(VkCommandBuffer commands, std::uint32_t trianglesInFlight, Targets targets)
+    : commands_(commands), targets_(std::move(targets)), most_(trianglesInFlight), room_(most_) {
+    begin();
+    setViewport(commands, targets_.size.x, targets_.size.y);
+}
+
+void Rendering::begin() const {
+    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
+    info.renderArea = {{0, 0}, {targets_.size.x, targets_.size.y}};
+    info.layerCount = 1;
+    info.colorAttachmentCount = std::uint32_t(targets_.colors.size());
+    info.pColorAttachments = targets_.colors.data();
+    info.pDepthAttachment = targets_.depth ? &*targets_.depth : nullptr;
+    vkCmdBeginRendering(commands_, &info);
+}
+
+void Rendering::end() {
+    vkCmdEndRendering(commands_);
+    barrier(commands_);
+}
+
+void Rendering::goOn() {
+    end();
+    for (VkRenderingAttachmentInfo& color : targets_.colors) color.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    if (targets_.depth) targets_.depth->loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    begin();
+    room_ = most_;
+}
+
+void Rendering::drawMesh(std::uint32_t first, std::uint32_t count) {
+    while (count > 0) {
+        if (room_ == 0) goOn();
+        const std::uint32_t part = std::min(count, room_);
+        vkCmdDrawIndexed(commands_, 3 * part, 1, 3 * first, 0, 0);
+        first += part, count -= part, room_ -= part;
+    }
+}
+
+void Renderer::Parts::draw(Rendering& rendering, const Frame& frame, Pass pass) {
+    const VkCommandBuffer commands = rendering.commands();
     const Pipeline& pipeline = pipelineOf(frame, pass);
     bind(commands, pipeline, frame.set);
     PushConstants constants{.drawsShadow = pass == Pass::shadow ? 1u : 0u};
     pushConstants(commands, pipeline, constants);
     if (frame.model.isDense()) {
         vkCmdBindIndexBuffer(commands, frame.model.indices().handle.get(), 0, VK_INDEX_TYPE_UINT32);
-        vkCmdDrawIndexed(commands, frame.model.indexCount(), 1, 0, 0, 0);
-        return;
+        rendering.drawMesh(0, frame.model.indexCount() / 3);
+    } else if (frame.options.path == Path::dice) {
+        drawDiced(rendering, frame, pipeline, constants);
+    } else if (frame.options.path == Path::tessellation) {
+        drawPatches(commands, frame, pass);
+    } else {
+        drawGrids(commands, frame, pipeline, pass);
     }
-    if (frame.options.path == Path::dice) {
-        drawDiced(commands, frame, pipeline, constants);
-        return;
-    }
-    if (frame.options.path == Path::tessellation) {
-        const std::uint32_t atOnce = device.traits().maxDrawIndirectCount;
-        const auto count = std::uint32_t(batchesOf(frame, pass).size());
-        for (std::uint32_t first = 0; first < count; first += atOnce)
-            vkCmdDrawIndirect(commands, frame.draws.handle.get(), first * sizeof(VkDrawIndirectCommand),
-                              std::min(atOnce, count - first), sizeof(VkDrawIndirectCommand));
-        return;
-    }
-    drawGrids(commands, frame, pipeline, pass);
+}
+
+void Renderer::Parts::drawPatches(VkCommandBuffer commands, const Frame& frame, Pass pass) {
+    const std::uint32_t atOnce = device.traits().maxDrawIndirectCount;
+    const auto count = std::uint32_t(batchesOf(frame, pass).size());
+    for (std::uint32_t first = 0; first < count; first += atOnce)
+        vkCmdDrawIndirect(commands, frame.draws.handle.get(), first * sizeof(VkDrawIndirectCommand),
+                          std::min(atOnce, count - first), sizeof(VkDrawIndirectCommand));
 }
 
 void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, Pass pass) {
@@ -117,13 +156,14 @@ void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Frame& frame, co
     }
 }
 
-/// The whole mesh in one draw, or a draw a face where the picture shows what belongs to faces.
-void Renderer::Parts::drawDiced(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline,
+/// The whole mesh at once, or face by face where the picture shows what belongs to faces.
+void Renderer::Parts::drawDiced(Rendering& rendering, const Frame& frame, const Pipeline& pipeline,
                                 PushConstants constants) {
+    const VkCommandBuffer commands = rendering.commands();
     const DicedMesh& mesh = frame.diced;
     vkCmdBindIndexBuffer(commands, mesh.indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
     if (frame.options.show != Show::faces && frame.options.show != Show::rate) {
-        vkCmdDrawIndexed(commands, mesh.triangleCount * 3, 1, 0, 0, 0);
+        rendering.drawMesh(0, mesh.triangleCount);
         return;
     }
     for (std::uint32_t face = 0; face + 1 < mesh.firstTriangles.size(); ++face) {
@@ -133,7 +173,7 @@ void Renderer::Parts::drawDiced(VkCommandBuffer commands, const Frame& frame, co
         constants.passRows = 1;
         constants.passNumber = mesh.faceRates[face];
         pushConstants(commands, pipeline, constants);
-        vkCmdDrawIndexed(commands, 3 * count, 1, 3 * first, 0, 0);
+        rendering.drawMesh(first, count);
     }
 }
 

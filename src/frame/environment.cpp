@@ -49,22 +49,28 @@ Image halved(const Image& from) {
 /// `source` seen by a GGX lobe of this roughness around every direction of a picture of the given size.
 Image convolved(const Image& source, int width, int height, double roughness) {
     const double a2 = std::pow(roughness, 4);
+    std::vector<dvec3> directions; // of all texels of the source
+    for (int j = 0; j < source.height; ++j)
+        for (int i = 0; i < source.width; ++i) directions.push_back(texelDirection(source, i, j));
     Image to = blank(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const dvec3 n = texelDirection(to, x, y);
             dvec3 sum(0);
             double weights = 0;
-            for (int j = 0; j < source.height; ++j)
+            for (int j = 0; j < source.height; ++j) {
+                const double solidAngle = texelSolidAngle(source, j);
                 for (int i = 0; i < source.width; ++i) {
-                    const double nl = glm::dot(n, texelDirection(source, i, j));
+                    const double nl =
+                        glm::dot(n, directions[std::size_t(j) * std::size_t(source.width) + std::size_t(i)]);
                     if (nl <= 0) continue;
                     const double nh2 = 0.5 + 0.5 * nl; // h is half way between n = v and l
                     const double d = nh2 * (a2 - 1) + 1;
-                    const double weight = a2 / (d * d) * nl * texelSolidAngle(source, j);
+                    const double weight = a2 / (d * d) * nl * solidAngle;
                     sum += weight * dvec3(rgb(source, i, j));
                     weights += weight;
                 }
+            }
             set(to, x, y, sum / weights);
         }
     return to;

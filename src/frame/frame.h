@@ -86,6 +86,7 @@ struct RenderOptions : TriangleOptions {
     std::vector<Layer> layers;
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
     bool countsPipeline = false;
+    std::optional<std::uint32_t> meshTrianglesInFlight; ///< see DeviceTraits; default what suits the device
 };
 
 struct FrameStats {

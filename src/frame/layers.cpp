@@ -4,12 +4,12 @@
 namespace relief {
 
 void Renderer::Parts::layerPass(VkCommandBuffer commands, const Frame& frame) {
-    const VkRenderingAttachmentInfo colors[] = {attachment(layerTargets->normals), attachment(layerTargets->places)};
-    const VkRenderingAttachmentInfo depth = attachment(layerTargets->depths);
-    beginRendering(commands, colors, &depth, size());
-    draw(commands, frame, Pass::layers);
-    vkCmdEndRendering(commands);
-    barrier(commands);
+    Rendering rendering(commands, trianglesInFlight(frame),
+                        {.colors = {attachment(layerTargets->normals), attachment(layerTargets->places)},
+                         .depth = attachment(layerTargets->depths),
+                         .size = size()});
+    draw(rendering, frame, Pass::layers);
+    rendering.end();
 }
 
 void Renderer::Parts::layerValuesPass(VkCommandBuffer commands, const Frame& frame) {

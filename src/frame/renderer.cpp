@@ -186,21 +186,18 @@ BindingSet Renderer::Parts::bindingSet(const Frame& frame, Pass pass) {
 }
 
 void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
-    const VkRenderingAttachmentInfo depth = attachment(targets.shadow);
-    beginRendering(commands, {}, &depth, uvec2(desc.shadowSide));
-    draw(commands, frame, Pass::shadow);
-    vkCmdEndRendering(commands);
-    barrier(commands);
+    Rendering rendering(commands, trianglesInFlight(frame), {{}, attachment(targets.shadow), uvec2(desc.shadowSide)});
+    draw(rendering, frame, Pass::shadow);
+    rendering.end();
 }
 
 void Renderer::Parts::colorPass(VkCommandBuffer commands, const Frame& frame) {
-    const VkRenderingAttachmentInfo colors[] = {attachment(targets.normals), attachment(targets.colors)};
-    const VkRenderingAttachmentInfo depth = attachment(targets.depths);
-    beginRendering(commands, colors, &depth, size());
-    draw(commands, frame, Pass::color);
-    if (frame.options.show == Show::wireframe) draw(commands, frame, Pass::lines);
-    vkCmdEndRendering(commands);
-    barrier(commands);
+    Rendering rendering(
+        commands, trianglesInFlight(frame),
+        {{attachment(targets.normals), attachment(targets.colors)}, attachment(targets.depths), size()});
+    draw(rendering, frame, Pass::color);
+    if (frame.options.show == Show::wireframe) draw(rendering, frame, Pass::lines);
+    rendering.end();
 }
 
 void Renderer::Parts::lightPass(VkCommandBuffer commands, const Frame& frame) {
@@ -278,11 +275,9 @@ std::uint64_t Renderer::crackPixels(const Model& model, const RenderOptions& opt
                                                   .memory = MemoryUse::readback});
     parts.device.run([&](VkCommandBuffer commands) {
         writeScene(commands, parts.scene, frame.scene);
-        const VkRenderingAttachmentInfo color = attachment(sums);
-        beginRendering(commands, {&color, 1}, nullptr, parts.size());
-        parts.draw(commands, frame, Parts::Pass::cracks);
-        vkCmdEndRendering(commands);
-        barrier(commands);
+        Rendering rendering(commands, parts.trianglesInFlight(frame), {{attachment(sums)}, {}, parts.size()});
+        parts.draw(rendering, frame, Parts::Pass::cracks);
+        rendering.end();
         VkBufferImageCopy region{};
         region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
         region.imageExtent = {width, height, 1};

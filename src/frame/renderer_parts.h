@@ -21,18 +21,31 @@ inline void setViewport(VkCommandBuffer commands, std::uint32_t width, std::uint
     vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
-/// Cleared targets of one size, drawn over as a whole; `depth` may be null.
-inline void beginRendering(VkCommandBuffer commands, std::span<const VkRenderingAttachmentInfo> colors,
-                           const VkRenderingAttachmentInfo* depth, const uvec2& size) {
-    VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-    info.renderArea = {{0, 0}, {size.x, size.y}};
-    info.layerCount = 1;
-    info.colorAttachmentCount = std::uint32_t(colors.size());
-    info.pColorAttachments = colors.data();
-    info.pDepthAttachment = depth;
-    vkCmdBeginRendering(commands, &info);
-    setViewport(commands, size.x, size.y);
-}
+/// Cleared targets of one size, drawn over as a whole.
+class Rendering {
+public:
+    struct Targets {
+        std::vector<VkRenderingAttachmentInfo> colors;
+        std::optional<VkRenderingAttachmentInfo> depth;
+        uvec2 size;
+    };
+    Rendering(VkCommandBuffer commands, std::uint32_t trianglesInFlight, Targets targets);
+    Rendering(const Rendering&) = delete;
+    Rendering& operator=(const Rendering&) = delete;
+
+    [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
+    /// Triangles of the bound indices; where they are more than the device should keep it finishes some in between.
+    void drawMesh(std::uint32_t first, std::uint32_t count);
+    void end();
+
+private:
+    void begin() const;
+    void goOn(); ///< when all that was drawn is done
+
+    VkCommandBuffer commands_;
+    Targets targets_;
+    std::uint32_t most_, room_; ///< triangles until the next wait
+};
 
 struct Renderer::Parts {
     Parts(Device& device, const RendererDesc& desc)
@@ -95,16 +108,20 @@ struct Renderer::Parts {
     void makeDiced(Frame& frame, FrameStats& stats);
     void makeGrids(const Model& model, const DrawPlan& plan);
     const Buffer& gridOf(const Model& model, const DrawBatch& batch) const;
+    void drawPatches(VkCommandBuffer commands, const Frame& frame, Pass pass);
     void drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, Pass pass);
     static std::span<const DrawBatch> batchesOf(const Frame& frame, Pass pass);
-    void drawDiced(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, PushConstants constants);
-    void draw(VkCommandBuffer commands, const Frame& frame, Pass pass);
+    static void drawDiced(Rendering& rendering, const Frame& frame, const Pipeline& pipeline, PushConstants constants);
+    void draw(Rendering& rendering, const Frame& frame, Pass pass);
     void shadowPass(VkCommandBuffer commands, const Frame& frame);
     void colorPass(VkCommandBuffer commands, const Frame& frame);
     void lightPass(VkCommandBuffer commands, const Frame& frame);
     void renderLayers(const Model& model, const RenderOptions& options, Picture& picture);
     void layerPass(VkCommandBuffer commands, const Frame& frame);
     void layerValuesPass(VkCommandBuffer commands, const Frame& frame);
+    [[nodiscard]] std::uint32_t trianglesInFlight(const Frame& frame) const {
+        return frame.options.meshTrianglesInFlight.value_or(device.traits().meshTrianglesInFlight);
+    }
     [[nodiscard]] bool castsShadows(const Frame& frame) const {
         return frame.options.lighting.castsShadows && frame.options.show == Show::shaded;
     }

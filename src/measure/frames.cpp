@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <malloc.h>
+
 #include "measure/parts.h"
 
 namespace relief {
@@ -63,6 +65,7 @@ void measurePreparation(Bench& bench, const Subject& subject) {
         const Cage cage = repeated(subject.cage, copies);
         std::vector<double> tables, upload;
         for (int round = 0; round < (faces < 2e4 && !bench.options.isQuick ? 3 : 1); ++round) {
+            malloc_trim(0); // a program prepares once, in fresh memory: rounds of small cages must not find it warm
             Surface surface;
             tables.push_back(millisecondsOf([&] { surface = buildSurface(cage, subject.surface); }));
             upload.push_back(millisecondsOf(

@@ -220,6 +220,8 @@ TEST_F(Animate, refusesWordsThatMakeNoSense) {
     refuse({"--turntable", "4", "--layers", "motion", "-o", target}, {"layers", ".exr"});
     refuse({"--deform", kTwist, "--frames", "1:9x2", "-o", folder_ / "a.pc2"}, {"every frame"});
     refuse({"--turntable", "4", "--resume", "-o", folder_ / "a.gif"}, {"--resume"});
+    for (const char* target : {"a.gif", "a.webm", "a.pc2"})
+        refuse({"--deform", kTwist, "--layers", "all", "-o", folder_ / target}, {target, "layers", ".exr"});
     EXPECT_EQ(folder_.fileCount(), 0u);
 }
 

@@ -167,6 +167,20 @@ TEST_F(Pictures, areDrawnInBatchesThatSuitTheDevice) {
     EXPECT_EQ(plan.vertexCount, 48u * 81); // a closed torus: as many vertices as quads
 }
 
+TEST_F(Pictures, areTheSameBitsInHoweverManyPartsAMeshIsDrawn) {
+    const Cage cage = creasedCube();
+    const Surface surface = buildSurface(cage, {.isolation = 3});
+    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    for (const Show show : {Show::shaded, Show::faces, Show::wireframe}) {
+        RenderOptions options = optionsFor(cage, show);
+        options.path = Path::dice;
+        options.rate = 5;
+        const Picture whole = renderer().render(model, options);
+        options.meshTrianglesInFlight = 77;
+        EXPECT_EQ(renderer().render(model, options).halves, whole.halves) << int(show);
+    }
+}
+
 TEST_F(Pictures, refuseRatesPastTheTessellator) {
     const Cage cage = cube();
     const Surface surface = buildSurface(cage, {.isolation = 2});
