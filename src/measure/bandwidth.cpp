@@ -87,8 +87,8 @@ private:
     }
 
     double residentOf(const Saving& saving) {
-        const HeightMap& map = contest_.map(saving.side, saving.format);
-        return double(contest_.surfaceBytes(saving.isolation) + mapBytes(saving.format, map.width, map.height));
+        return double(contest_.surfaceBytes(saving.isolation) +
+                      mapBytes(saving.format, saving.side, contest_.rowsOf(saving.side)));
     }
 
     /// Predicted from each saving alone, without the rate.
@@ -105,15 +105,16 @@ private:
         std::vector<int> sides = contest_.sides(), isolations{0, 1, 2, 3, 4, 6};
         std::erase_if(isolations, [&](int i) { return i > contest_.subject().surface.isolation; });
         // Coarser never gets better: what is beyond the tolerance alone need not be measured further down.
-        std::ranges::reverse(sides), std::ranges::reverse(isolations);
+        std::ranges::reverse(isolations);
         for (const int isolation : isolations) {
             Saving saving{isolation, contest_.everything().side, format, contest_.largestRate()};
-            if (predictedSquare(saving) > squared(tolerance)) break;
-            for (const int side : sides) {
+            const auto isBeyond = [&](int side) {
                 saving.side = side;
-                if (predictedSquare(saving) > squared(tolerance)) break;
-                all.push_back(saving);
-            }
+                return predictedSquare(saving) > squared(tolerance);
+            };
+            const auto first = std::ranges::partition_point(sides, isBeyond);
+            if (first == sides.end()) break;
+            for (const int side : std::span(first, sides.end())) saving.side = side, all.push_back(saving);
         }
         std::ranges::sort(all, {}, [&](const Saving& s) { return residentOf(s); });
         return all;

@@ -26,12 +26,16 @@ Saving Contest::everything() const {
 std::vector<int> Contest::sides() const {
     std::vector<int> sides{subject_.height.width};
     for (int step = 1;; ++step) {
-        const int side = int(std::lround(subject_.height.width * std::exp2(-0.5 * step)));
+        const int side = int(std::lround(subject_.height.width * std::exp2(-0.25 * step)));
         if (side < 16) break;
         sides.push_back(side);
     }
     std::ranges::reverse(sides);
     return sides;
+}
+
+int Contest::rowsOf(int side) const {
+    return std::max(1, int(std::lround(double(side) * subject_.height.height / subject_.height.width)));
 }
 
 const Surface& Contest::surface(int isolation) {
@@ -45,9 +49,8 @@ const Surface& Contest::surface(int isolation) {
 const HeightMap& Contest::map(int side, MapFormat format) {
     const auto found = maps_.find({side, format});
     if (found != maps_.end()) return found->second;
-    const HeightMap& whole = subject_.height;
-    const int rows = std::max(1, int(std::lround(double(side) * whole.height / whole.width)));
-    const HeightMap real = format == MapFormat::real ? resampled(whole, side, rows) : this->map(side, MapFormat::real);
+    const HeightMap real =
+        format == MapFormat::real ? resampled(subject_.height, side, rowsOf(side)) : this->map(side, MapFormat::real);
     HeightMap map = inFormat(real, format);
     return maps_.emplace(std::pair(side, format), std::move(map)).first->second;
 }

@@ -31,7 +31,8 @@ public:
     [[nodiscard]] int referenceRate() const { return referenceRate_; }
     [[nodiscard]] int largestRate() const { return largestRate_; } ///< that is judged
     [[nodiscard]] Saving everything() const;                       ///< nothing saved, at the largest rate
-    [[nodiscard]] std::vector<int> sides() const; ///< of maps, in steps of a square root of two, smallest first
+    [[nodiscard]] std::vector<int> sides() const; ///< columns of maps, four steps to a half, smallest first
+    [[nodiscard]] int rowsOf(int side) const;     ///< in proportion
     [[nodiscard]] double diagonal() const { return diagonal_; }
 
     const Surface& surface(int isolation);

@@ -101,7 +101,6 @@ std::string equalErrorFigure(std::span<const Row* const> rows, const char* title
                      .aboveRule = "displacement saves"});
 }
 
-
 } // namespace
 
 std::string bandwidthFigures(const Results& results) {
@@ -159,11 +158,12 @@ std::string scalingFigures(const Results& results) {
                   .caption = "The lower border reads every resident byte once, the upper one fetches for every call "
                              "anew; a device is between them.",
                   .lines = linesOf(rows, at, value("read a frame, least"), value("read a frame, cacheless"))});
-    html += figureOf({.title = "Cost of a further triangle",
-                      .xLabel = "triangles",
-                      .yLabel = "dicing and color pass, a triangle more",
-                      .yScale = Scale::nanoseconds,
-                      .lines = linesOf(rows, at, value("a further triangle"))});
+    html += figureOf(
+        {.title = "Cost of a further triangle, all of one size on screen",
+         .xLabel = "triangles, one a pixel: the picture grows with them",
+         .yLabel = "dicing and color pass, a triangle more",
+         .yScale = Scale::nanoseconds,
+         .lines = linesOf(rowsOf(results, "scaling", "triangles of a pixel"), at, value("a further triangle"))});
     html += figureOf({.title = "Preparing a cage",
                       .xLabel = "faces of the cage",
                       .yLabel = "OpenSubdiv's tables and upload",

@@ -94,36 +94,70 @@ void measureFrame(Bench& bench, const Subject& subject) {
     bench.progress.advance();
 }
 
+namespace {
+
+/// Large frames vary less and take longer.
+int scalingRounds(double triangles) { return triangles > 2e6 ? 0 : triangles > 5e5 ? 1 : 3; }
+
+/// What a triangle costs that keeps its size on screen: the picture grows with the triangles. In a picture of one size
+/// few triangles are large, and most of their cost is that of their pixels.
+void measureTriangles(Bench& bench, const OnDevice& on, const std::string& scene) {
+    constexpr double kPixels = 1024 * 1024 / 1e6; // a triangle
+    const std::vector<double> counts =
+        bench.options.isQuick ? std::vector<double>{3e3, 1e4, 3e4} : std::vector<double>{3e3, 1e5, 1e6, 1e7};
+    std::map<std::string, std::pair<double, double>> least; // triangles, and the time of their passes
+    for (const double count : counts) {
+        const int side = int(std::lround(std::sqrt(kPixels * count)));
+        Renderer renderer(bench.device, {.width = side, .height = side, .shadowSide = 1});
+        const auto paths = [&](int rate) {
+            std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
+            for (Drawn& drawn : all) drawn.options.filtersHeights = false; // heights cost the same at every rate
+            if (count > 5e6)
+                std::erase_if(all, [](const Drawn& drawn) { return drawn.options.path == Path::tessellation; });
+            return all;
+        };
+        std::vector<Drawn> all = paths(on.rateFor(count)), few = paths(1);
+        if (count > 2e6) drawRounds(renderer, on.views, 0, few); // compiles shaders for less
+        drawRounds(renderer, on.views, scalingRounds(count), all);
+        for (const Drawn& drawn : all) {
+            Row row{"scaling", scene, drawn.name, "triangles of a pixel", double(drawn.last.triangleCount), {}};
+            drawn.tell(row);
+            const double passes = row.get("triangle passes");
+            row.add("a triangle", "ns", Origin::computed, 1e6 * passes / row.at);
+            // More than the fewest triangles of the same faces cost: what faces and draws cost themselves is not
+            // theirs.
+            const auto [fewest, isFewest] = least.try_emplace(drawn.name, row.at, passes);
+            if (!isFewest)
+                row.add("a further triangle", "ns", Origin::computed,
+                        1e6 * (passes - fewest->second.second) / (row.at - fewest->second.first));
+            bench.results.rows.push_back(row);
+        }
+        bench.progress.advance();
+    }
+}
+
+} // namespace
+
 void measureScaling(Bench& bench, const Subject& subject) {
     const OnDevice on(bench.device, subject);
     Renderer renderer(bench.device, {.width = bench.pictureSide(), .height = bench.pictureSide(), .shadowSide = 1});
     int previous = 0;
-    std::map<std::string, std::pair<double, double>> least; // triangles, and the time of their passes
-    for (const double triangles : {3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 3e6, 1e7}) {
+    for (const double triangles : {3e3, 1e4, 3e4, 1e5, 3e5, 1e6, 3e6}) {
         bench.progress.advance();
         const int rate = on.rateFor(triangles);
         if (rate == previous || triangles > (bench.options.isQuick ? 3e4 : 1e7)) continue;
         previous = rate;
         std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
-        std::unique_ptr<Model> dense;
-        if (triangles <= 3e6) {
-            dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
-            all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
-        }
-        if (triangles > 5e6)
-            std::erase_if(all, [](const Drawn& drawn) { return drawn.options.path == Path::tessellation; });
-        drawRounds(renderer, on.views, triangles > 2e6 ? 0 : 3, all);
+        const std::unique_ptr<Model> dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
+        all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
+        drawRounds(renderer, on.views, scalingRounds(triangles), all);
         for (Drawn& drawn : all) {
             Row row{"scaling", subject.name, drawn.name, "triangles", double(drawn.last.triangleCount), {}};
             drawn.tell(row);
-            // More than the fewest triangles cost: what the picture itself costs is not theirs.
-            const auto [first, isFirst] = least.try_emplace(drawn.name, row.at, row.get("triangle passes"));
-            if (!isFirst && row.at > 5e4)
-                row.add("a further triangle", "ns", Origin::computed,
-                        1e6 * (row.get("triangle passes") - first->second.second) / (row.at - first->second.first));
             bench.results.rows.push_back(row);
         }
     }
+    measureTriangles(bench, on, subject.name);
     measurePreparation(bench, subject);
 }
 

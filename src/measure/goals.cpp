@@ -58,13 +58,13 @@ double unevenness(const std::vector<double>& values) {
 void addScaling(std::vector<Goal>& goals, const Results& results) {
     std::map<std::string, std::vector<double>> costs;
     std::string scene;
-    for (const Row* row : rowsOf(results, "scaling", "triangles"))
-        if (row->at >= 0.95e5 && row->find("a further triangle") != nullptr && !row->contestant.starts_with("dense"))
-            costs[row->contestant].push_back(row->get("a further triangle")), scene = row->scene;
+    for (const Row* row : rowsOf(results, "scaling", "triangles of a pixel"))
+        if (row->at > 0.95e5) costs[row->contestant].push_back(row->get("a further triangle")), scene = row->scene;
     for (const auto& [contestant, values] : costs)
         if (values.size() > 1)
-            goals.push_back({"cost of a further triangle from 100 k to 10 M, off its middle by, " + contestant, scene,
-                             15, 100 * unevenness(values), false, " %"});
+            goals.push_back(
+                {"cost of a further triangle of a pixel from 100 k to 10 M, off its middle by, " + contestant, scene,
+                 15, 100 * unevenness(values), false, " %"});
     std::vector<double> perFace;
     for (const Row* row : rowsOf(results, "scaling", "faces")) perFace.push_back(row->get("a face"));
     if (perFace.size() > 1)

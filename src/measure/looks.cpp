@@ -29,12 +29,11 @@ Looks::Looks(Bench& bench, Contest& contest)
     options.lighting.castsShadows = false;
     for (const Camera& view : views_) {
         options.camera = view;
-        reference_.push_back(see(model, options));
+        reference_.push_back(seen(renderer_.render(model, options)));
     }
 }
 
-Looks::Seen Looks::see(const Model& model, const RenderOptions& options) {
-    const Picture picture = renderer_.render(model, options);
+Looks::Seen Looks::seen(const Picture& picture) {
     const std::string path = folder_ / "picture.png";
     writePicture(path, picture);
     Seen seen{.image = readImage(path), .png = readFile(path)};
@@ -43,45 +42,41 @@ Looks::Seen Looks::see(const Model& model, const RenderOptions& options) {
     return seen;
 }
 
-Looks::Look Looks::compare(const Model& model, RenderOptions options) {
-    Look look;
-    double sum = 0, count = 0;
-    for (std::size_t view = 0; view < views_.size(); ++view) {
-        options.camera = views_[view];
-        Seen seen = see(model, options);
-        const Seen& reference = reference_[view];
-        for (std::size_t i = 0; i < seen.image.texels.size(); ++i) {
-            if (!reference.isObject[i / 3] && !seen.isObject[i / 3]) continue;
-            sum += std::pow(double(seen.image.texels[i]) - reference.image.texels[i], 2.0);
-            ++count;
-        }
-        look.pngs.push_back(std::move(seen.png));
-        look.images.push_back(std::move(seen.image));
+void Looks::compare(Look& look, Seen seen, const Seen& reference) {
+    for (std::size_t i = 0; i < seen.image.texels.size(); ++i) {
+        if (!reference.isObject[i / 3] && !seen.isObject[i / 3]) continue;
+        look.squares += std::pow(double(seen.image.texels[i]) - reference.image.texels[i], 2.0);
+        ++look.count;
     }
-    look.rmse = count > 0 ? std::sqrt(sum / count) : 0;
-    return look;
+    look.pngs.push_back(std::move(seen.png));
+    look.images.push_back(std::move(seen.image));
 }
 
+/// Rounds draw every contestant once, view after view: the pictures of the first two are compared, and all but the
+/// first, which compiles shaders, are timed.
 void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
     looks_.clear();
-    std::vector<std::unique_ptr<Model>> models; // those that are timed live until all are
-    std::vector<Drawn> timed;
-    for (const Drawable& drawable : all) {
-        auto model = drawable.saving ? contest_.model(*drawable.saving)
-                                     : std::make_unique<Model>(bench_.device, ModelDesc{.dense = drawable.mesh});
-        RenderOptions options;
-        options.bounds = bounds_;
-        options.lighting.castsShadows = false;
-        options.path = Path::dice;
-        options.filtersHeights = false;
-        if (drawable.saving) options.rate = drawable.saving->rate;
-        looks_[drawable.name] = compare(*model, options);
-        if (!drawable.isTimed) continue;
-        timed.push_back({.name = drawable.name, .model = model.get(), .options = options});
-        models.push_back(std::move(model));
-    }
-    drawRounds(renderer_, views_, bench_.options.isQuick ? 2 : 3, timed);
-    for (const Drawn& drawn : timed) looks_[drawn.name].frame = drawn.wall;
+    std::vector<std::unique_ptr<Model>> models;
+    for (const Drawable& drawable : all)
+        models.push_back(drawable.saving ? contest_.model(*drawable.saving)
+                                         : std::make_unique<Model>(bench_.device, ModelDesc{.dense = drawable.mesh}));
+    const std::size_t rounds = bench_.options.isQuick || hasPair_ ? 3 : 4; // the first tolerance is the one of goals
+    for (std::size_t round = 0; round < rounds; ++round)
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const bool isCompared = round < views_.size();
+            if (!isCompared && !all[i].isTimed) continue;
+            RenderOptions options;
+            options.bounds = bounds_;
+            options.lighting.castsShadows = false;
+            options.path = Path::dice;
+            options.filtersHeights = false;
+            options.camera = views_[round % views_.size()];
+            if (all[i].saving) options.rate = all[i].saving->rate;
+            const Picture picture = renderer_.render(*models[i], options);
+            Look& look = looks_[all[i].name];
+            if (round > 0 && all[i].isTimed) look.frame.push_back(picture.stats.wallMs);
+            if (isCompared) compare(look, seen(picture), reference_[round]);
+        }
     if (!std::exchange(hasPair_, true)) {
         addPair(tolerance, "dense mesh, raw", "cage + BC4 map");
         addPair(tolerance, "simplified mesh, raw", "cage + float map");
@@ -103,8 +98,9 @@ void Looks::addPair(double tolerance, const std::string& left, const std::string
 void Looks::tell(const std::string& name, Row& row) const {
     const auto found = looks_.find(name);
     if (found == looks_.end()) return;
-    row.add("picture rmse", "of white", Origin::measured, found->second.rmse);
-    row.add("picture psnr", "dB", Origin::measured, found->second.rmse > 0 ? -20 * std::log10(found->second.rmse) : 99);
+    const double rmse = found->second.rmse();
+    row.add("picture rmse", "of white", Origin::measured, rmse);
+    row.add("picture psnr", "dB", Origin::measured, rmse > 0 ? -20 * std::log10(rmse) : 99);
     if (!found->second.frame.empty()) row.add("frame", "ms", found->second.frame);
 }
 

@@ -1,6 +1,8 @@
 // Internal: what contestants look like beside the reference, and how long frames of those that can be drawn take.
 #pragma once
 
+#include <cmath>
+
 #include "measure/contest.h"
 
 namespace relief {
@@ -30,14 +32,16 @@ private:
         std::string png;
     };
     struct Look {
-        double rmse = 0; ///< of display values 0..1 over the object's pixels, both views
+        double squares = 0, count = 0; ///< differences of display values 0..1 over the object's pixels, both views
         std::vector<double> frame;
         std::vector<std::string> pngs;
         std::vector<Image> images;
+
+        [[nodiscard]] double rmse() const { return count > 0 ? std::sqrt(squares / count) : 0; }
     };
 
-    Seen see(const Model& model, const RenderOptions& options);
-    Look compare(const Model& model, RenderOptions options);
+    Seen seen(const Picture& picture);
+    void compare(Look& look, Seen seen, const Seen& reference);
     void addPair(double tolerance, const std::string& left, const std::string& right);
 
     Bench& bench_;
