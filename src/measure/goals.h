@@ -10,6 +10,7 @@ struct Goal {
     double wanted = 0, found = 0;
     bool isAtLeast = true;
     std::string unit;
+    std::string reason; ///< why it is hard to reach, said where it is missed
 
     [[nodiscard]] bool isMet() const { return isAtLeast ? found >= wanted : found <= wanted; }
 };

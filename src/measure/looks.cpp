@@ -7,6 +7,7 @@ namespace relief {
 namespace {
 
 constexpr float kAmplification = 8; ///< of differences in the report
+constexpr std::size_t kRounds = 3;
 
 std::string pngOf(const Image& image, const ScratchFolder& folder) {
     writeImage(folder / "image.png", image, SampleType::uint8);
@@ -60,8 +61,7 @@ void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
     for (const Drawable& drawable : all)
         models.push_back(drawable.saving ? contest_.model(*drawable.saving)
                                          : std::make_unique<Model>(bench_.device, ModelDesc{.dense = drawable.mesh}));
-    const std::size_t rounds = bench_.options.isQuick || hasPair_ ? 3 : 4; // the first tolerance is the one of goals
-    for (std::size_t round = 0; round < rounds; ++round)
+    for (std::size_t round = 0; round < kRounds; ++round)
         for (std::size_t i = 0; i < all.size(); ++i) {
             const bool isCompared = round < views_.size();
             if (!isCompared && !all[i].isTimed) continue;

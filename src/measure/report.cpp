@@ -41,11 +41,14 @@ std::string cellOf(const Value& value) {
 std::string goalTable(const std::vector<Goal>& goals) {
     std::string html = "<div class=\"scroll\"><table><tr><th class=\"words\">figure to reach</th><th>wanted</th>"
                        "<th>found</th><th></th></tr>";
-    for (const Goal& goal : goals)
-        html += fmt::format("<tr><td class=\"words\">{}<br><small>{}</small></td><td>{} {:.4g}{}</td><td>{:.3g}{}</td>"
-                            "<td class=\"{}\">{}</td></tr>",
-                            escaped(goal.what), escaped(goal.scene), goal.isAtLeast ? "≥" : "≤", goal.wanted, goal.unit,
+    for (const Goal& goal : goals) {
+        const bool hasReason = !goal.isMet() && !goal.reason.empty();
+        html += fmt::format("<tr><td class=\"words\">{}<br><small>{}{}{}</small></td><td>{} {:.4g}{}</td>"
+                            "<td>{:.3g}{}</td><td class=\"{}\">{}</td></tr>",
+                            escaped(goal.what), escaped(goal.scene), hasReason ? "<br>" : "",
+                            hasReason ? escaped(goal.reason) : "", goal.isAtLeast ? "≥" : "≤", goal.wanted, goal.unit,
                             goal.found, goal.unit, goal.isMet() ? "good" : "bad", goal.isMet() ? "met" : "missed");
+    }
     return html + "</table></div>";
 }
 
