@@ -120,7 +120,7 @@ void measureStartup(Bench& bench, const Subject& subject) {
     if (!bench.device.traits().hasTessellation) options.path = Path::grid;
     renderer.render(on.model, options);
     std::vector<double> cold, cached, frame, tables, device, peak;
-    for (int round = 0; round < (bench.options.isQuick ? 1 : 3); ++round) {
+    for (int round = 0; round < (bench.options.isQuick ? 1 : 2); ++round) {
         const Run first = runs.render({"--edge-pixels", pixels}, true);
         cold.push_back(first.milliseconds);
         peak.push_back(double(first.peakBytes));
