@@ -58,7 +58,7 @@ private:
         std::vector<double> all{std::ceil(same / unit) * unit};
         const double most = 0.5 * contest_.heightRms();
         for (const double round : {1e-5, 2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3})
-            if (round > 1.99 * all.back() && round < most && all.size() < (bench_.options.isQuick ? 2u : 3u))
+            if (round > 1.99 * all.back() && round < most && all.size() < (bench_.options.isQuick ? 1u : 3u))
                 all.push_back(round);
         return all;
     }

@@ -58,6 +58,7 @@ void Looks::compare(Look& look, Seen seen, const Seen& reference) {
 void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
     looks_.clear();
     std::vector<std::unique_ptr<Model>> models;
+    models.reserve(all.size());
     for (const Drawable& drawable : all)
         models.push_back(drawable.saving ? contest_.model(*drawable.saving)
                                          : std::make_unique<Model>(bench_.device, ModelDesc{.dense = drawable.mesh}));
