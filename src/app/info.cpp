@@ -83,7 +83,9 @@ json ofPicture(const std::string& path) {
                 {"sample", info.sample},
                 {"channels", info.channelNames},
                 {"bytes", std::uint64_t(info.width) * info.height * info.channels * info.sampleBytes},
-                {"default_mid", info.isFloat ? 0.0 : 0.5}};
+                {"default_mid", info.isFloat ? 0.0 : 0.5},
+                {"map_format", wordOf(fileFormat(info))},
+                {"map_bytes", mapBytes(fileFormat(info), info.width, info.height)}};
     const Image image = readImage(path);
     json ranges = json::array();
     for (int c = 0; c < image.channels; ++c) {
@@ -137,7 +139,7 @@ void print(const json& object) {
         const bool isNothing = (value.is_number() && value.get<double>() == 0 && key != "default_mid") ||
                                (value.is_array() && value.empty());
         if (isNothing) continue;
-        const bool isSize = key == "bytes" || key == "memory";
+        const bool isSize = key == "bytes" || key == "map_bytes" || key == "memory";
         std::string name = key;
         std::ranges::replace(name, '_', ' ');
         std::cout << fmt::format("  {:28} {}\n", name, isSize ? humanBytes(value.get<std::uint64_t>()) : text(value));

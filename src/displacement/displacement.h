@@ -23,6 +23,8 @@ enum class MapFormat : std::uint32_t {
     bc4 = kMapBc4,         ///< 4 bits a texel: blocks of 4 x 4 texels
 };
 std::string nameOf(MapFormat format);
+/// The smallest format that holds every value of such a file.
+MapFormat fileFormat(const ImageInfo& info);
 
 struct HeightOptions {
     std::optional<double> mid;   ///< stored value that means no displacement; default 0.5 integer files, 0 float files

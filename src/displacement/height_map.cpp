@@ -52,14 +52,6 @@ HeightMap finishMap(HeightMap map, const std::string& name) {
     return map;
 }
 
-/// The smallest format that holds every value of such a file.
-MapFormat formatOf(const ImageInfo& info) {
-    if (info.sample == "half") return MapFormat::half;
-    if (info.sample == "uint16") return MapFormat::unorm16;
-    if (info.sample == "uint8") return MapFormat::unorm8;
-    return MapFormat::real;
-}
-
 void warnAbout(const ImageInfo& info, const std::string& path, const HeightOptions& options, const Warn& warn) {
     if (info.sampleBytes == 1) warn(fmt::format("{}: 8-bit heights show as stairs; use 16 bits or float", path));
     if (!info.isFloat && !options.scale)
@@ -68,6 +60,13 @@ void warnAbout(const ImageInfo& info, const std::string& path, const HeightOptio
 }
 
 } // namespace
+
+MapFormat fileFormat(const ImageInfo& info) {
+    if (info.sample == "half") return MapFormat::half;
+    if (info.sample == "uint16") return MapFormat::unorm16;
+    if (info.sample == "uint8") return MapFormat::unorm8;
+    return MapFormat::real;
+}
 
 double HeightMap::reach() const { return std::abs(scale) * std::max(std::abs(lowest - mid), std::abs(highest - mid)); }
 
@@ -86,7 +85,7 @@ HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, c
                                .wrap = options.wrap},
                               path);
     if (options.format) return inFormat(map, *options.format);
-    map.format = formatOf(info);
+    map.format = fileFormat(info);
     return map;
 }
 

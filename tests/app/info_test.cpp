@@ -53,6 +53,9 @@ TEST(Info, ofMapsShowsTheRangeOfEveryChannel) {
     EXPECT_EQ(two.at("default_mid"), 0.0);
     EXPECT_EQ(two.at("ranges"), (nlohmann::json{{-0.25, 0.5}, {1, 3}}));
     EXPECT_EQ(two.at("bytes"), 16);
+    EXPECT_EQ(two.at("map_format"), "float");
+    EXPECT_EQ(two.at("map_bytes"), 4 * (2 + 1));
+    EXPECT_EQ(list[1].at("map_format"), "unorm16");
     EXPECT_EQ(list[1].at("sample"), "uint16");
     EXPECT_EQ(list[1].at("default_mid"), 0.5);
 

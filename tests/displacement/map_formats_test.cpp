@@ -135,6 +135,7 @@ TEST(Formats, ofFilesAreTheSmallestThatKeepThem) {
         EXPECT_EQ(map.format, format) << name;
         EXPECT_LT(worstOf(levelOf(map, wordsOf(map), 0), map), 1e-7) << name;
     }
+    EXPECT_EQ(fileFormat({.sample = "int16"}), MapFormat::real); // signed: half of its values are below 0
     EXPECT_EQ(load("e.png", SampleType::uint16, MapFormat::real).format, MapFormat::real);
     EXPECT_EQ(load("f.exr", SampleType::real, MapFormat::bc4).blocks.size(), 8u);
 }
