@@ -30,12 +30,12 @@ inline HeightMap levelOf(const HeightMap& map, const MapWords& words, std::uint3
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const auto i = std::size_t(y * width + x), block = std::size_t(y / 4 * ((width + 3) / 4) + x / 4);
-            const std::uint32_t pair = bytes[2 * i] | std::uint32_t(bytes[2 * i + 1]) << 8;
+            const auto pair = [&] { return std::uint32_t(bytes[2 * i] | bytes[2 * i + 1] << 8); };
             float value = 0;
             switch (map.format) {
             case MapFormat::real: value = std::bit_cast<float>(first[i]); break;
-            case MapFormat::half: value = glm::unpackHalf1x16(std::uint16_t(pair)); break;
-            case MapFormat::unorm16: value = map.base + map.range * float(pair) / 65535; break;
+            case MapFormat::half: value = glm::unpackHalf1x16(std::uint16_t(pair())); break;
+            case MapFormat::unorm16: value = map.base + map.range * float(pair()) / 65535; break;
             case MapFormat::unorm8: value = map.base + map.range * float(bytes[i]) / 255; break;
             case MapFormat::bc4:
                 value = map.base + map.range * decodeBc4(std::span<const std::uint8_t, 8>(bytes + 8 * block,
