@@ -75,6 +75,7 @@ json ofSeams(SurfaceArgs args, const std::string& cage, bool isQuiet) {
 
 json ofPicture(const std::string& path) {
     const ImageInfo info = readImageInfo(path);
+    const MapFormat format = fileFormat(info);
     json result{{"file", path},
                 {"kind", "picture"},
                 {"format", info.format},
@@ -84,8 +85,8 @@ json ofPicture(const std::string& path) {
                 {"channels", info.channelNames},
                 {"bytes", std::uint64_t(info.width) * info.height * info.channels * info.sampleBytes},
                 {"default_mid", info.isFloat ? 0.0 : 0.5},
-                {"map_format", wordOf(fileFormat(info))},
-                {"map_bytes", mapBytes(fileFormat(info), info.width, info.height)}};
+                {"map_format", wordOf(format)},
+                {"map_bytes", mapBytes(format, info.width, info.height)}};
     const Image image = readImage(path);
     json ranges = json::array();
     for (int c = 0; c < image.channels; ++c) {

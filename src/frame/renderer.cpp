@@ -30,13 +30,8 @@ Renderer::Renderer(Device& device, const RendererDesc& desc) {
 Renderer::~Renderer() = default;
 
 ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) const {
-    ShaderConstants c{.hasTexCoords = frame.model.hasTexCoords(),
-                      .hasHeight = frame.model.hasHeight(),
-                      .normal = frame.options.normal,
-                      .hasMips = frame.rates.hasMips(),
-                      .stretches = frame.model.stretches(),
-                      .mapFormat = frame.model.mapFormat(),
-                      .hasWideNets = frame.model.hasWideNets()};
+    ShaderConstants c = relief::constantsOf(frame.model, frame.options.normal);
+    c.hasMips = frame.rates.hasMips();
     // Where positions are all that counts no normal is cheaper than the limit normal.
     if (pass == Pass::shadow || pass == Pass::cracks) c.normal = NormalKind::limit;
     if (pass == Pass::cracks) c.show = kShowCracks;

@@ -150,16 +150,14 @@ private:
 
     Entry entryOf(const Saving& saving) {
         const HeightMap& map = contest_.map(saving.side, saving.format);
-        const MeshCounts counts = contest_.countsOf(saving);
-        Entry entry{.name = fmt::format("cage + {} map", nameOf(saving.format)), .error = contest_.errorOf(saving)};
-        entry.triangles = counts.triangles;
-        const std::unique_ptr<Model> model = contest_.model(saving);
-        entry.resident = double(model->byteCount());
+        const Judged& judged = contest_.judged(saving);
+        Entry entry{.name = fmt::format("cage + {} map", nameOf(saving.format)), .error = judged.error};
+        entry.triangles = judged.counts.triangles;
+        entry.resident = double(judged.residentBytes);
         entry.isTimed = true;
         entry.uploaded = double(posedCageBytes(contest_.subject().cage.positions.size()));
-        entry.traffic = surfaceTraffic({.residentBytes = std::uint64_t(entry.resident),
-                                        .calls = counts.vertices,
-                                        .evaluation = {model->hasTexCoords(), model->hasWideNets(), saving.format}});
+        entry.traffic = surfaceTraffic(
+            {.residentBytes = judged.residentBytes, .calls = judged.counts.vertices, .evaluation = judged.evaluation});
         entry.saving = saving;
         entry.details = {number("map columns", saving.side), number("rate", saving.rate),
                          number("isolation", saving.isolation)};

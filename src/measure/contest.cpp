@@ -49,9 +49,8 @@ const Surface& Contest::surface(int isolation) {
 const HeightMap& Contest::map(int side, MapFormat format) {
     const auto found = maps_.find({side, format});
     if (found != maps_.end()) return found->second;
-    const HeightMap real =
-        format == MapFormat::real ? resampled(subject_.height, side, rowsOf(side)) : this->map(side, MapFormat::real);
-    HeightMap map = inFormat(real, format);
+    HeightMap map = format == MapFormat::real ? resampled(subject_.height, side, rowsOf(side))
+                                              : inFormat(this->map(side, MapFormat::real), format);
     return maps_.emplace(std::pair(side, format), std::move(map)).first->second;
 }
 
@@ -61,10 +60,11 @@ std::unique_ptr<Model> Contest::model(const Saving& saving) {
                                                       .height = &map(saving.side, saving.format)});
 }
 
-DenseMesh Contest::mesh(const Saving& saving) {
-    const std::unique_ptr<Model> on = model(saving);
-    return dicer_.diceToHost(*on, exactRates(*on, saving.rate), {.wantsTexCoords = subject_.cage.hasTexCoords()});
+DenseMesh Contest::meshOf(const Model& model, int rate) {
+    return dicer_.diceToHost(model, exactRates(model, rate), {.wantsTexCoords = subject_.cage.hasTexCoords()});
 }
+
+DenseMesh Contest::mesh(const Saving& saving) { return meshOf(*model(saving), saving.rate); }
 
 MeshError Contest::errorOf(const DenseMesh& mesh) const {
     const MeasuredSurface measured({mesh.positions, mesh.indices}, sampleCount_);
@@ -72,16 +72,17 @@ MeshError Contest::errorOf(const DenseMesh& mesh) const {
     return {.rms = distance.rms() / diagonal_, .hausdorff = distance.hausdorff() / diagonal_};
 }
 
-const Contest::Judged& Contest::judged(const Saving& saving) {
+const Judged& Contest::judged(const Saving& saving) {
     const auto found = judged_.find(saving);
     if (found != judged_.end()) return found->second;
-    const DenseMesh made = mesh(saving);
-    return judged_.emplace(saving, Judged{errorOf(made), {made.positions.size(), made.indices.size() / 3}})
-        .first->second;
+    const std::unique_ptr<Model> on = model(saving);
+    const DenseMesh made = meshOf(*on, saving.rate);
+    const MeshCounts counts{made.positions.size(), made.indices.size() / 3};
+    const Evaluation evaluation{on->hasTexCoords(), on->hasWideNets(), saving.format};
+    return judged_.emplace(saving, Judged{errorOf(made), counts, on->byteCount(), evaluation}).first->second;
 }
 
 const MeshError& Contest::errorOf(const Saving& saving) { return judged(saving).error; }
-const MeshCounts& Contest::countsOf(const Saving& saving) { return judged(saving).counts; }
 
 std::uint64_t Contest::surfaceBytes(int isolation) {
     std::uint64_t& bytes = surfaceBytes_[isolation];

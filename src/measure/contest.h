@@ -21,6 +21,14 @@ inline bool operator<(const Saving& a, const Saving& b) {
     return std::tie(a.isolation, a.side, a.format, a.rate) < std::tie(b.isolation, b.side, b.format, b.rate);
 }
 
+/// What a saving was found to be.
+struct Judged {
+    MeshError error;
+    MeshCounts counts;
+    std::uint64_t residentBytes = 0; ///< of surface and map on the device
+    Evaluation evaluation;
+};
+
 /// The reference is the displaced surface itself at four times `triangles`; surfaces of up to twice as many are judged.
 class Contest {
 public:
@@ -41,10 +49,10 @@ public:
     DenseMesh mesh(const Saving& saving);
 
     MeshError errorOf(const DenseMesh& mesh) const;
-    const MeshError& errorOf(const Saving& saving); ///< measured once
-    const MeshCounts& countsOf(const Saving& saving);
-    std::uint64_t surfaceBytes(int isolation); ///< on the device, without a map
-    [[nodiscard]] double heightRms() const;    ///< of the map's heights about their mean, as a fraction of the diagonal
+    const MeshError& errorOf(const Saving& saving);
+    const Judged& judged(const Saving& saving); ///< measured once
+    std::uint64_t surfaceBytes(int isolation);  ///< on the device, without a map
+    [[nodiscard]] double heightRms() const; ///< of the map's heights about their mean, as a fraction of the diagonal
     /// Of heights alone, as a fraction of the diagonal: what a format loses.
     double formatError(int side, MapFormat format);
 
@@ -57,11 +65,7 @@ private:
     int referenceRate_ = 1, largestRate_ = 1;
     std::map<int, Surface> surfaces_;
     std::map<std::pair<int, MapFormat>, HeightMap> maps_;
-    struct Judged {
-        MeshError error;
-        MeshCounts counts;
-    };
-    const Judged& judged(const Saving& saving);
+    DenseMesh meshOf(const Model& model, int rate);
     std::map<Saving, Judged> judged_;
     std::map<int, std::uint64_t> surfaceBytes_;
     DenseMesh referenceMesh_;

@@ -116,9 +116,12 @@ void measureTriangles(Bench& bench, const OnDevice& on, const std::string& scene
                 std::erase_if(all, [](const Drawn& drawn) { return drawn.options.path == Path::tessellation; });
             return all;
         };
-        std::vector<Drawn> all = paths(on.rateFor(count)), few = paths(1);
-        const auto view = std::span(on.views).first(1);      // the same one, however few rounds there are
-        if (count > 2e6) drawRounds(renderer, view, 0, few); // compiles shaders for less
+        std::vector<Drawn> all = paths(on.rateFor(count));
+        const auto view = std::span(on.views).first(1); // the same one, however few rounds there are
+        if (scalingRounds(count) == 0) {                // shaders are compiled for less
+            std::vector<Drawn> few = paths(1);
+            drawRounds(renderer, view, 0, few);
+        }
         drawRounds(renderer, view, scalingRounds(count), all);
         for (const Drawn& drawn : all) {
             Row row{"scaling", scene, drawn.name, "triangles of a pixel", double(drawn.last.triangleCount), {}};

@@ -89,8 +89,6 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     words_ = uploadWords(device, "tree", s.tree);
 
     const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
-    heightPyramid_ = std::make_unique<HeightPyramid>(desc.height != nullptr ? HeightPyramid(*desc.height, mapRoundOff_)
-                                                                            : HeightPyramid());
     faceReaches_ = relief::faceReaches(s, desc.height, *heightPyramid_);
     faceBounds_ = relief::faceBounds(s, refined, faceReaches_);
     if (enclosesVolume(s))
@@ -153,7 +151,7 @@ void Model::uploadMaps(Device& device, const ModelDesc& desc) {
         const MapWords words = wordsOf(map);
         heights_ = uploadWords(device, "height map", words.words);
         mapFirsts_ = words.firsts;
-        mapRoundOff_ = words.roundOff;
+        heightPyramid_ = std::make_unique<HeightPyramid>(map, words.roundOff);
         mapFormat_ = map.format;
         mapSize_ = {map.width, map.height};
         const WordScale scale = wordScale(map);
@@ -161,6 +159,7 @@ void Model::uploadMaps(Device& device, const ModelDesc& desc) {
         wrap_ = map.wrap;
     } else {
         heights_ = uploadWords(device, "no height map", {});
+        heightPyramid_ = std::make_unique<HeightPyramid>();
     }
     if (desc.albedo != nullptr) {
         const AlbedoMips mips = albedoMips(*desc.albedo);

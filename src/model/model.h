@@ -124,7 +124,7 @@ private:
     std::uint32_t indexCount_ = 0, vertexCount_ = 0;
     int sideCount_ = 4;
     glm::ivec2 mapSize_{0};
-    float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0, mapRoundOff_ = 0;
+    float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0;
     MapFormat mapFormat_ = MapFormat::real;
     Wrap wrap_ = Wrap::repeat;
     bool isDense_ = false, hasWideNets_ = false, hasTexCoords_ = false, hasAlbedo_ = false;

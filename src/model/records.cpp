@@ -105,12 +105,13 @@ private:
     }
     void appendNet(std::vector<std::uint32_t>& words, const Net& net) const {
         const std::size_t first = words.size();
+        const std::uint32_t base = baseOf(net);
         words.resize(first + 4 * std::size_t(texelsOf(net)), 0);
         for (std::size_t k = 0; k < net.size(); ++k) {
             if (isWide_)
                 words[first + k] = net[k];
             else
-                words[first + k / 2] |= (net[k] - baseOf(net)) << (16 * (k % 2));
+                words[first + k / 2] |= (net[k] - base) << (16 * (k % 2));
         }
     }
 
