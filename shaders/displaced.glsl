@@ -2,8 +2,8 @@
 #ifndef RELIEF_DISPLACED_GLSL
 #define RELIEF_DISPLACED_GLSL
 
+#include "corners.glsl"
 #include "heights.glsl"
-#include "limit.glsl"
 #include "places.glsl"
 #include "shared/displacement.h"
 
@@ -13,8 +13,6 @@ layout(constant_id = 3) const uint kNormal = kNormalFull;
 layout(constant_id = 4) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
 
 // --- normals --------------------------------------------------------------------------------------------------------
-
-const float kParallel = 1e-6; // sine of the angle under which two tangents count as parallel
 
 bool spansPlane(vec3 a, vec3 b) {
     vec3 c = cross(a, b);
@@ -42,7 +40,8 @@ struct SurfacePoint {
     LimitFrame frame;
     TexFrame tex;
     vec3 n;          // unit normal
-    float area;      // |p_u x p_v|
+    float area;      // |p_u x p_v|; at a straight corner its derivative along the diagonal
+    bool isStraight; // at a straight corner: p_u and p_v are parallel and nothing can be derived from them
     float stretch;   // what heights are multiplied with: 1 unless they stretch with the surface
     vec2 logStretch; // derivatives of its logarithm by (u,v)
 };
@@ -52,7 +51,7 @@ vec3 displacedNormal(SurfacePoint point, HeightSample height) {
     LimitFrame f = point.frame;
     vec3 n = point.n;
     float area = point.area;
-    if (kNormal == kNormalLimit || !kHasHeight) return n;
+    if (kNormal == kNormalLimit || !kHasHeight || point.isStraight) return n;
     vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
     if (kStretches) dh += height.h * point.logStretch;
     if (kNormal == kNormalFirstOrder) return firstOrderNormal(n, f.pu, f.pv, dh);
@@ -82,14 +81,28 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     return patchFrame(true, fetchPatch(leaf.patchIndex), leaf.uv).p.xy;
 }
 
-// How much the surface has grown since rest, as a length.
-void addStretch(inout SurfacePoint point, LimitFrame rest, vec2 uv, float leafScale) {
-    mendTangents(rest, uv, leafScale);
-    precise vec3 restNormal = cross(rest.pu, rest.pv);
+// p_u x p_v, or what stands for it where it vanishes: at straight corners its derivative along the diagonal; elsewhere p_u and
+// p_v are repaired.
+vec3 areaNormal(inout LimitFrame f, NetPair nets, Leaf leaf, vec2 uv, out bool isStraight) {
+    isStraight = false;
+#ifdef RELIEF_MEETS_CORNERS
+    if (kHasStraightCorners) {
+        vec3 straight = straightCornerNormal(nets, leaf.uv);
+        isStraight = straight != vec3(0);
+        if (isStraight) return straight;
+    }
+#endif
+    mendTangents(f, uv, leaf.scale);
+    precise vec3 normal = cross(f.pu, f.pv);
+    return normal;
+}
+
+// How much the surface has grown since rest, as a length; `restNormal` is the rest pose's areaNormal.
+void addStretch(inout SurfacePoint point, LimitFrame rest, vec3 restNormal) {
     precise float restArea = length(restNormal);
     precise float stretch = stretchOf(point.area, restArea);
     point.stretch = stretch;
-    if (stretch >= kMostStretch) return;
+    if (stretch >= kMostStretch || point.isStraight) return;
     LimitFrame f = point.frame;
     vec3 n0 = restNormal / restArea;
     vec2 areaSlope = vec2(areaDerivative(point.n, f.pu, f.pv, f.puu, f.puv), areaDerivative(point.n, f.pu, f.pv, f.puv, f.pvv));
@@ -107,6 +120,7 @@ SurfacePoint surfacePoint(NetPair nets, Leaf leaf, vec2 uv, bool wantsTexture) {
     bool hasTexture = wantsTexture && kHasTexCoords && (kHasHeight || kWantsTexCoords);
     bool hasRest = kStretches && wantsTexture && kHasHeight;
     LimitFrame rest = kNoFrame;
+    vec3 restNormal = vec3(0);
     uint textureKind = hasTexture ? 1u : 0u, restKind = textureKind + (hasRest ? 1u : 0u), own = pose;
     for (uint kind = 0u; kind <= restKind; ++kind) {
         bool isTexture = kind > 0u && kind == textureKind;
@@ -114,16 +128,19 @@ SurfacePoint surfacePoint(NetPair nets, Leaf leaf, vec2 uv, bool wantsTexture) {
         LimitFrame f = byFace(patchFrame(isTexture, nets, leaf.uv), leaf.scale);
         if (kind == 0u) point.frame = f;
         else if (isTexture) point.tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
-        else rest = f;
+        else {
+            rest = f;
+            bool isStraight;
+            restNormal = areaNormal(rest, nets, leaf, uv, isStraight);
+        }
     }
     pose = own;
-    mendTangents(point.frame, uv, leaf.scale);
-    precise vec3 areaNormal = cross(point.frame.pu, point.frame.pv);
-    precise float area = length(areaNormal);
-    precise vec3 n = areaNormal / area;
+    precise vec3 normal = areaNormal(point.frame, nets, leaf, uv, point.isStraight);
+    precise float area = length(normal);
+    precise vec3 n = normal / area;
     point.area = area;
     point.n = n;
-    if (hasRest) addStretch(point, rest, uv, leaf.scale);
+    if (hasRest) addStretch(point, rest, restNormal);
     return point;
 }
 

@@ -11,6 +11,7 @@
 #define RELIEF_POINT pointAt
 #define RELIEF_TEX_POINT texPointAt
 #define RELIEF_UNROLL
+#define RELIEF_MEETS_CORNERS // samples may lie in corners of faces
 #endif
 
 // OpenSubdiv's own basis functions, as its library prints them (the build writes the file): what triangles are drawn

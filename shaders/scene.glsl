@@ -74,11 +74,12 @@ struct Net {
 
 struct NetPair {
     Net points, texPoints;
+    uint straightCorners; // as in Patch
 };
 
 NetPair fetchPatch(uint i) {
     uvec4 a = recordTexel(scene.firstPatch, kPatchTexels, i, 0u);
-    return NetPair(Net(a.x, a.y, a.w & 15u, a.w >> 8 & 31u), Net(a.x + (a.w >> 18), a.z, a.w >> 4 & 15u, a.w >> 13 & 31u));
+    return NetPair(Net(a.x, a.y, a.w & 15u, a.w >> 8 & 31u), Net(a.x + (a.w >> 18 & 63u), a.z, a.w >> 4 & 15u, a.w >> 13 & 31u), a.w >> 24);
 }
 
 // Points 4 row .. 4 row + 3 of a net.

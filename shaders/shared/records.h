@@ -9,6 +9,7 @@
 //   Touch      face                         side:8 touches:24        start                      end
 //   Patch      its nets                     base                     base of texture points     type:4 type of texture:4
 //                                                                                               boundary:5 of texture:5 texels:6
+//                                                                                               straight corners:4
 //
 // Touches are counted from the first one; an edge finds how many it has in its first. The nets of a patch are the texel where
 // the numbers of its control points begin, less its base, eight 16-bit numbers a texel; those of its texture coordinates follow

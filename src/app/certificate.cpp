@@ -59,6 +59,10 @@ json ofRegion(const RegionErrors& errors) {
             {"displaced_normal_degrees", ofError(errors.normal)}};
 }
 
+json ofCorners(const CornerReport& corners) {
+    return {{"count", corners.count}, {"normal_turn_max_degrees", corners.max}, {"max_at", ofPlace(corners.worst)}};
+}
+
 json ofCurvature(const CurvatureReport& report) {
     return {{"points", report.count},
             {"points_without_curvature", report.countWithoutCurvature},
@@ -114,6 +118,11 @@ std::string regionTable(const char* title, const RegionErrors& errors) {
     return text;
 }
 
+std::string cornerWords(const CornerReport& corners) {
+    return fmt::format("  normals in {} corners turn by up to {:.3g} degrees more than those beside them, at {}\n",
+                       corners.count, corners.max, words(corners.worst));
+}
+
 std::string curvatureWords(const CurvatureReport& r) {
     std::string text = fmt::format("  least 1 + h kappa is {:.4g}, at {}\n", r.lowestFactor, words(r.lowestAt));
     if (r.foldedArea > 0)
@@ -160,6 +169,9 @@ std::vector<std::string> Certificate::brokenPromises() const {
     };
     check(frames.regular.point, promises.point, "points");
     check(frames.regular.tangent, promises.tangent, "tangents");
+    if (corners.max > promises.cornerDegrees)
+        broken.push_back(fmt::format("the normal at {} is off by {:.3g} degrees from those beside it, more than {}",
+                                     words(corners.worst), corners.max, promises.cornerDegrees));
     return broken;
 }
 
@@ -171,6 +183,7 @@ json toJson(const Certificate& c) {
              {"diagonal", c.diagonal},
              {"paths", json::array()},
              {"frames", {{"regular", ofRegion(c.frames.regular)}, {"end_caps", ofRegion(c.frames.endCaps)}}},
+             {"corners", ofCorners(c.corners)},
              {"curvature", ofCurvature(c.curvature)},
              {"broken_promises", c.brokenPromises()}};
     for (const PathReport& report : c.paths) all["paths"].push_back(ofPath(report));
@@ -183,7 +196,7 @@ std::string toText(const Certificate& c) {
     std::string text = fmt::format("{}{} on {}\n", c.cage, c.height.empty() ? "" : " with " + c.height, c.device);
     text += "watertight\n" + pathTable(c);
     text += "exact, against a double-precision reference\n" + regionTable("outside end caps", c.frames.regular) +
-            regionTable("in end caps", c.frames.endCaps);
+            regionTable("in end caps", c.frames.endCaps) + cornerWords(c.corners);
     if (!c.height.empty()) text += "one-to-one\n" + curvatureWords(c.curvature);
     if (c.seams) text += "seams\n" + seamWords(*c.seams, c.reach);
     return text;

@@ -16,9 +16,11 @@ struct PathReport {
     std::optional<std::uint64_t> crackPixels; ///< over all views; only of surfaces that enclose a volume
 };
 
-/// What is promised of frames outside end caps, over the diagonal of the cage's bounding box.
+/// What is promised of frames outside end caps, over the diagonal of the cage's bounding box, and of normals in
+/// corners.
 struct Promises {
     double point = 1e-6, tangent = 1e-5;
+    double cornerDegrees = 15; ///< see CornerReport; in corners the surface itself turns by a few degrees
 };
 Promises promisesAt(int isolation);
 
@@ -29,6 +31,7 @@ struct Certificate {
     double diagonal = 0, reach = 0; ///< cage units; largest height of the map
     std::vector<PathReport> paths;
     FrameErrors frames;
+    CornerReport corners;
     CurvatureReport curvature;
     std::optional<SeamReport> seams; ///< with a map
 

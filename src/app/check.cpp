@@ -94,7 +94,7 @@ std::vector<SampleResult> sampleDevice(Device& device, const Model& model, std::
     return results;
 }
 
-/// Frames, curvature and seams from one query of the device; returns the heat map that is asked for.
+/// Frames, curvature, corners and seams from the device's answers; returns the heat map that is asked for.
 std::optional<Picture> checkPoints(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args,
                                    Certificate& certificate) {
     const SurfaceSamples samples = sampleEverywhere(loaded.surface, args.pointCount);
@@ -105,6 +105,8 @@ std::optional<Picture> checkPoints(Device& device, const Model& model, const Loa
         sampleErrors({&reference, loaded.heightMap(), normal, certificate.diagonal}, samples.queries, results);
     certificate.frames = summarizeErrors(samples.queries, errors);
     certificate.curvature = reportCurvature(samples, results);
+    const std::vector<SampleQuery> corners = cornersOf(loaded.surface);
+    certificate.corners = reportCorners(reference, corners, sampleDevice(device, model, corners, normal));
     if (loaded.height) certificate.seams = reportSeams(loaded.surface, reference, *loaded.height);
     if (args.heatmap.empty()) return {};
     const Heat heat{samples, results, errors, promisesAt(certificate.isolation)};

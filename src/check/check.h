@@ -104,6 +104,24 @@ FrameErrors summarizeErrors(std::span<const SampleQuery> queries, std::span<cons
 FrameErrors compareFrames(const FrameComparison& with, std::span<const SampleQuery> queries,
                           std::span<const SampleResult> results);
 
+// --- corners --------------------------------------------------------------------------------------------------------
+
+/// A query per corner of every drawn face.
+std::vector<SampleQuery> cornersOf(const Surface& surface);
+
+/// The device's limit normals in corners of faces against the reference's beside them. In the corner itself device and
+/// reference could share a mistake: p_u and p_v may be parallel there.
+struct CornerReport {
+    std::uint64_t count = 0;
+    /// Degrees from the normal a 64th of the face away along the diagonal, less what the normal turns on the next 64th.
+    double max = 0;
+    SurfacePlace worst;
+};
+
+/// `results[i]` is the device's answer to `queries[i]`, each of which is a corner.
+CornerReport reportCorners(const ReferenceSurface& reference, std::span<const SampleQuery> queries,
+                           std::span<const SampleResult> results);
+
 // --- one-to-one ---------------------------------------------------------------------------------------------------
 
 /// With dn = kappa dP: a sphere of radius r with its normal outward has kappa = 1/r twice.

@@ -1,4 +1,5 @@
 // The displaced surface at one point in double precision: the oracle for the shaders.
+#include <algorithm>
 #include <cmath>
 
 #include "displacement/displacement.h"
@@ -43,8 +44,14 @@ struct Stretch {
     dvec2 logSlope{0};
 };
 
+/// Where p_u and p_v are parallel the areas are compared at first order along the diagonal, and there is no slope.
+Stretch stretchAtCorner(const dvec3& rest, const dvec3& now) {
+    const double before = glm::length(rest), after = glm::length(now);
+    if (before == 0 || after == 0) return {};
+    return {std::min(std::sqrt(after / before), formulas::kMostStretch), dvec2(0)};
+}
+
 Stretch stretchSince(const LimitFrame& rest, const LimitFrame& now) {
-    if (!rest.hasTangentPlane() || !now.hasTangentPlane()) return {};
     const Area before = areaOf(rest), after = areaOf(now);
     const double factor = std::sqrt(after.value / before.value);
     if (factor >= formulas::kMostStretch) return {formulas::kMostStretch, dvec2(0)};
@@ -62,7 +69,12 @@ DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* 
     frame.normal = frame.firstOrder = frame.full = surface.normal(face, uv);
     if (map) frame.height = sampleHeight(*map, tex.st);
     Stretch stretch;
-    if (rest != nullptr) stretch = stretchSince(rest->limit(face, uv), frame.limit);
+    if (rest != nullptr) {
+        const LimitFrame before = rest->limit(face, uv);
+        stretch = before.hasTangentPlane() && frame.limit.hasTangentPlane()
+                      ? stretchSince(before, frame.limit)
+                      : stretchAtCorner(rest->areaNormal(face, uv), surface.areaNormal(face, uv));
+    }
     frame.height.h *= stretch.factor, frame.height.hs *= stretch.factor, frame.height.ht *= stretch.factor;
     frame.q = formulas::displacedPoint(frame.limit.p, frame.normal, frame.height.h);
     if (!frame.limit.hasTangentPlane()) return frame; // there is no derivative of its normal either

@@ -84,6 +84,7 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     firstFace_ = records.firstFace, firstPatch_ = records.firstPatch, firstEdge_ = records.firstEdge;
     firstCorner_ = records.firstCorner, firstTouch_ = records.firstTouch;
     hasWideNets_ = records.hasWideNets;
+    hasStraightCorners_ = records.hasStraightCorners;
     records_ =
         uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records.words)));
     words_ = uploadWords(device, "tree", s.tree);

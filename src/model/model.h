@@ -94,6 +94,7 @@ public:
     [[nodiscard]] MapFormat mapFormat() const { return mapFormat_; }
     /// Whether control points are numbered with 32 bits (shared/records.h).
     [[nodiscard]] bool hasWideNets() const { return hasWideNets_; }
+    [[nodiscard]] bool hasStraightCorners() const { return hasStraightCorners_; }
     /// Bytes of the height map on the device, with its mips.
     [[nodiscard]] std::uint64_t heightBytes() const { return hasHeight() ? heights_.buffer.bytes : 0; }
     /// Bytes resident on the device: buffers and textures.
@@ -127,7 +128,7 @@ private:
     float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0;
     MapFormat mapFormat_ = MapFormat::real;
     Wrap wrap_ = Wrap::repeat;
-    bool isDense_ = false, hasWideNets_ = false, hasTexCoords_ = false, hasAlbedo_ = false;
+    bool isDense_ = false, hasWideNets_ = false, hasStraightCorners_ = false, hasTexCoords_ = false, hasAlbedo_ = false;
     std::uint64_t byteCount_ = 0;
 };
 

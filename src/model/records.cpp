@@ -74,7 +74,7 @@ public:
             const std::uint32_t texels = texelsOf(points);
             relief::append(words, texel, baseOf(points), baseOf(texPoints),
                            patch.type | patch.texType << 4 | (patch.param1 >> 7 & 31) << 8 |
-                               (patch.texParam1 >> 7 & 31) << 13 | texels << 18);
+                               (patch.texParam1 >> 7 & 31) << 13 | texels << 18 | patch.straightCorners << 24);
             texel += texels + texelsOf(texPoints);
         }
         for (const Patch& patch : surface_.patches)
@@ -85,7 +85,8 @@ private:
     using Net = std::span<const std::uint32_t>;
 
     [[nodiscard]] Net pointsOf(const Patch& patch) const {
-        return Net(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
+        const int cornerPoints = 2 * std::popcount(patch.straightCorners);
+        return Net(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type) + cornerPoints);
     }
     [[nodiscard]] Net texPointsOf(const Patch& patch) const {
         if (!surface_.hasTexCoords()) return {};
@@ -136,6 +137,8 @@ SurfaceRecords recordsOf(const Surface& surface) {
     records.firstPatch = texel();
     records.hasWideNets = nets.isWide();
     nets.append(words);
+    records.hasStraightCorners =
+        std::ranges::any_of(surface.patches, [](const Patch& p) { return p.straightCorners != 0; });
     records.firstEdge = texel();
     appendEdges(words, surface);
     records.firstCorner = texel();

@@ -23,7 +23,7 @@ std::uint32_t appendRecords(std::vector<std::uint32_t>& words, const std::vector
 struct SurfaceRecords {
     std::vector<std::uint32_t> words;
     std::uint32_t firstFace = 0, firstPatch = 0, firstEdge = 0, firstCorner = 0, firstTouch = 0;
-    bool hasWideNets = false;
+    bool hasWideNets = false, hasStraightCorners = false;
 };
 SurfaceRecords recordsOf(const Surface& surface);
 

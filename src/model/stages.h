@@ -20,7 +20,7 @@ struct PushConstants {
 /// Set 0 of every pass (kBind...).
 PipelineLayoutDesc passLayout();
 
-/// Specialization constants 0..13 in the order of the shaders' constant_id.
+/// Specialization constants 0..14 in the order of the shaders' constant_id.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
@@ -34,6 +34,7 @@ struct ShaderConstants {
     bool hasMotion = false; ///< layers: the surface was in another pose before
     MapFormat mapFormat = MapFormat::real;
     bool hasWideNets = false;
+    bool hasStraightCorners = false;
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
         return {isGenericBasis,
@@ -49,7 +50,8 @@ struct ShaderConstants {
                 stretches,
                 hasMotion,
                 std::uint32_t(mapFormat),
-                hasWideNets};
+                hasWideNets,
+                hasStraightCorners};
     }
 };
 
@@ -107,7 +109,8 @@ inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
             .normal = normal,
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),
-            .hasWideNets = model.hasWideNets()};
+            .hasWideNets = model.hasWideNets(),
+            .hasStraightCorners = model.hasStraightCorners()};
 }
 
 /// Two triangles a cell, row after row: the first rows of a larger grid with as many columns.

@@ -1,5 +1,6 @@
 // The double-precision evaluator: OpenSubdiv's patches, with the derivatives that it gets wrong put right.
 #include <algorithm>
+#include <cmath>
 
 #include <opensubdiv/far/patchMap.h>
 
@@ -64,6 +65,21 @@ bool hasFiniteSharpnessPast(const Cage& cage, int isolation) {
            std::any_of(cage.vertexSharpness.begin(), cage.vertexSharpness.end(), isPast);
 }
 
+/// Sine under which tangents count as parallel: OpenSubdiv's own at straight corners are 1.5e-5 off.
+constexpr double kParallel = 1e-4;
+
+bool isCorner(int sideCount, const dvec2& uv) {
+    for (int corner = 0; corner < sideCount; ++corner)
+        if (uv == sidePoint(sideCount, corner, 0)) return true;
+    return false;
+}
+
+/// From the corner to its two neighbours, added up.
+dvec2 diagonalFrom(int sideCount, const dvec2& corner) {
+    if (sideCount == 4) return dvec2(1) - 2.0 * corner;
+    return dvec2(1) - 3.0 * corner;
+}
+
 } // namespace
 
 struct ReferenceSurface::Parts {
@@ -118,7 +134,7 @@ struct ReferenceSurface::Parts {
 };
 
 bool LimitFrame::hasTangentPlane() const {
-    return glm::length(glm::cross(pu, pv)) > 1e-6 * std::max(glm::dot(pu, pu), glm::dot(pv, pv));
+    return glm::length(glm::cross(pu, pv)) > kParallel * std::max(glm::dot(pu, pu), glm::dot(pv, pv));
 }
 
 ReferenceSurface::ReferenceSurface(const Cage& cage, const SurfaceOptions& options)
@@ -177,9 +193,27 @@ TexFrame ReferenceSurface::texture(int face, const dvec2& uv) const {
     return frame;
 }
 
+dvec3 ReferenceSurface::areaNormal(int face, const dvec2& uv) const {
+    const auto product = [&](const dvec2& at) {
+        const LimitFrame frame = limit(face, at);
+        return glm::cross(frame.pu, frame.pv);
+    };
+    const LimitFrame frame = limit(face, uv);
+    if (frame.hasTangentPlane() || !isCorner(parts_->sideCount, uv)) return glm::cross(frame.pu, frame.pv);
+    // One-sided differences of second order, small within the patch that holds the corner.
+    const auto depth = depthInFace(parts_->tables.patches->GetPatchParam(parts_->patchAt(face, uv)));
+    const double h = std::ldexp(1e-3, -depth);
+    const dvec2 step = h * diagonalFrom(parts_->sideCount, uv);
+    return (4.0 * product(uv + step) - 3.0 * product(uv) - product(uv + 2.0 * step)) / (2 * h);
+}
+
 dvec3 ReferenceSurface::normal(int face, const dvec2& uv) const {
+    const LimitFrame here = limit(face, uv);
+    const dvec3 product = areaNormal(face, uv);
+    if (glm::length(product) > kParallel * std::max(glm::dot(here.pu, here.pu), glm::dot(here.pv, here.pv)))
+        return glm::normalize(product);
     const dvec2 center(parts_->sideCount == 4 ? 1.0 / 2 : 1.0 / 3);
-    for (const double step : {0.0, 1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+    for (const double step : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
         const LimitFrame frame = limit(face, glm::mix(uv, center, step));
         if (frame.hasTangentPlane()) return glm::normalize(glm::cross(frame.pu, frame.pv));
     }

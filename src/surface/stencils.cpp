@@ -1,88 +1,8 @@
 // Stencils of refined and local points, cut down to the points that some patch uses.
-#include <limits>
-
-#include "surface/far.h"
+#include "surface/rows.h"
 
 namespace relief {
 namespace {
-
-/// Each point's weights over the cage's points. Blending rows as OpenSubdiv blends points keeps one copy of them; its
-/// own stencil tables are copied to append the local points.
-class RowTable {
-public:
-    RowTable(std::size_t cagePointCount, std::size_t pointCount) : rows_(pointCount), sums_(cagePointCount) {
-        entries_.reserve(kUsualWeights * pointCount);
-        for (std::size_t i = 0; i < cagePointCount; ++i) {
-            rows_[i] = {entries_.size(), 1};
-            entries_.push_back({std::uint32_t(i), 1});
-        }
-    }
-
-    struct Entry {
-        std::uint32_t index;
-        double weight;
-    };
-
-    /// One row as a value that OpenSubdiv can blend.
-    struct Row {
-        RowTable* table;
-        std::size_t index;
-
-        void Clear() { table->open(index); }                                           // NOLINT(*-identifier-naming)
-        void AddWithWeight(const Row& other, double w) { table->add(other.index, w); } // NOLINT(*-identifier-naming)
-    };
-
-    /// The rows from `first` on.
-    struct Rows {
-        RowTable* table;
-        std::size_t first;
-        Row operator[](int i) const { return {table, first + i}; }
-    };
-
-    [[nodiscard]] std::span<const Entry> row(std::size_t index) const {
-        return std::span(entries_).subspan(rows_[index].first, rows_[index].count);
-    }
-
-    /// Moves the open row's sums into the table.
-    void close() {
-        if (open_ == kNone) return;
-        const std::size_t first = entries_.size();
-        for (const std::uint32_t i : used_) {
-            if (sums_[i] != 0) entries_.push_back({i, sums_[i]});
-            sums_[i] = 0;
-        }
-        rows_[open_] = {first, entries_.size() - first};
-        used_.clear();
-        open_ = kNone;
-    }
-
-private:
-    static constexpr std::size_t kUsualWeights = 16; ///< a row
-    static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-    struct Range {
-        std::size_t first = 0, count = 0;
-    };
-
-    void open(std::size_t index) {
-        close();
-        open_ = index;
-    }
-
-    void add(std::size_t other, double w) {
-        if (w == 0) return;
-        for (const Entry& entry : row(other)) {
-            double& sum = sums_[entry.index];
-            if (sum == 0) used_.push_back(entry.index); // twice where a sum crosses 0: close() clears it at the first
-            sum += w * entry.weight;
-        }
-    }
-
-    std::vector<Range> rows_;
-    std::vector<Entry> entries_;
-    std::vector<double> sums_;        ///< of the open row, one a cage point
-    std::vector<std::uint32_t> used_; ///< cage points that the open row has
-    std::size_t open_ = kNone;
-};
 
 RowTable makeRows(const FarTables& tables) {
     RowTable rows(tables.refiner->GetLevel(0).GetNumVertices(), pointCount(tables));
@@ -109,9 +29,10 @@ std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uin
 } // namespace
 
 void fillStencils(Surface& surface, FarTables tables) {
-    const RowTable rows = makeRows(tables);
+    RowTable rows = makeRows(tables);
     surface.controlPointCount = tables.refiner->GetLevel(0).GetNumVertices();
-    const auto used = compact(surface.patchPoints, surface.controlPointCount, pointCount(tables));
+    addStraightCorners(surface, rows);
+    const auto used = compact(surface.patchPoints, surface.controlPointCount, rows.size());
     tables = {}; // the largest thing in memory, and not needed beside the arrays that grow below
 
     std::size_t weightCount = 0;

@@ -88,7 +88,7 @@ bool enclosesVolume(const Surface& surface);
 struct LimitFrame {
     dvec3 p{0}, pu{0}, pv{0}, puu{0}, puv{0}, pvv{0};
 
-    /// False where p_u and p_v are parallel or vanish: at cusps and at corners of smooth boundaries.
+    /// False where p_u and p_v are parallel or vanish: at cusps and at straight corners (shared/surface.h).
     [[nodiscard]] bool hasTangentPlane() const;
 };
 
@@ -118,7 +118,10 @@ public:
     [[nodiscard]] LimitFrame limit(int face, const dvec2& uv) const;
     /// (u,v) itself with the unit Jacobian where the cage has no texture coordinates.
     [[nodiscard]] TexFrame texture(int face, const dvec2& uv) const;
-    /// Unit normal of the frame; where p_u and p_v are parallel or vanish, from a point slightly towards the face's
+    /// p_u x p_v, which is as long as the area per unit of (u,v). At a corner where p_u and p_v are parallel or vanish:
+    /// its derivative along the diagonal from the corner into the face, by differences of points of the patch.
+    [[nodiscard]] dvec3 areaNormal(int face, const dvec2& uv) const;
+    /// Unit normal: the direction of areaNormal, or where that vanishes as well, of a point slightly towards the face's
     /// centre.
     [[nodiscard]] dvec3 normal(int face, const dvec2& uv) const;
 

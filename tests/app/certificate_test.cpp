@@ -102,6 +102,12 @@ TEST(Certificate, isNotBrokenByWhatIsNoPromise) {
     EXPECT_TRUE(c.brokenPromises().empty());
 }
 
+TEST(Certificate, isBrokenByANormalThatTurnsInACorner) {
+    Certificate c = soundCertificate();
+    c.corners = {.count = 4, .max = 90, .worst = {.face = 3, .uv = vec2(1, 0)}};
+    expectBroken(c, {"normal at face 3 (1, 0)", "90 degrees"});
+}
+
 TEST(Certificate, tellsAllThatIsBroken) {
     Certificate c = soundCertificate();
     c.paths.push_back(c.paths[0]);

@@ -1,0 +1,30 @@
+// Straight corners of faces, whose tangents along both sides are opposite (see shared/surface.h).
+#ifndef RELIEF_CORNERS_GLSL
+#define RELIEF_CORNERS_GLSL
+
+#include "limit.glsl"
+
+const float kParallel = 1e-6; // sine of the angle under which two tangents count as parallel
+
+layout(constant_id = 14) const bool kHasStraightCorners = false;
+
+// The corner of a patch that lies at its (u,v), which halving keeps exact; one past the last corner elsewhere.
+uint cornerAt(vec2 uv) {
+#ifdef RELIEF_TRIANGLES
+    return uv == vec2(0, 0) ? 0u : uv == vec2(1, 0) ? 1u : uv == vec2(0, 1) ? 2u : 3u;
+#else
+    return uv == vec2(0, 0) ? 0u : uv == vec2(1, 0) ? 1u : uv == vec2(1, 1) ? 2u : uv == vec2(0, 1) ? 3u : 4u;
+#endif
+}
+
+// The derivative of p_u x p_v along the diagonal of a straight corner, t x d; zero at all other points.
+vec3 straightCornerNormal(NetPair nets, vec2 uv) {
+    uint corner = cornerAt(uv), bit = 1u << corner;
+    if ((nets.straightCorners & bit) == 0u) return vec3(0);
+    uint first = patchSize(nets.points.type) + 2u * bitCount(nets.straightCorners & (bit - 1u));
+    vec3 p = pointAt(netPoint(nets.points, 5u * corner));
+    precise vec3 t = pointAt(netPoint(nets.points, first)) - p, d = pointAt(netPoint(nets.points, first + 1u)) - p;
+    precise vec3 normal = cross(t, d);
+    return dot(normal, normal) > kParallel * kParallel * dot(t, t) * dot(d, d) ? normal : vec3(0);
+}
+#endif

@@ -1,0 +1,51 @@
+// Normals in corners of faces against those beside them.
+#include <cmath>
+#include <limits>
+
+#include "check/check.h"
+
+namespace relief {
+namespace {
+
+constexpr double kBeside = 1.0 / 64; ///< of a face: where the leaf of a corner ends at the default isolation
+
+double angleBetween(const dvec3& a, const dvec3& b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+/// Degrees between `normal` and the reference's normals beside the corner, less the turn of these.
+double turnAtCorner(const ReferenceSurface& reference, const SampleQuery& corner, const dvec3& normal) {
+    const dvec2 uv(corner.uv);
+    // The sum of both sides' directions: from (0,0) it is (1,1).
+    const dvec2 diagonal = dvec2(1) - (reference.sideCount() == 4 ? 2.0 : 3.0) * uv;
+    const dvec3 beside = reference.normal(int(corner.face), uv + kBeside * diagonal);
+    const dvec3 farther = reference.normal(int(corner.face), uv + 2 * kBeside * diagonal);
+    const double turn = angleBetween(normal, beside) - angleBetween(beside, farther);
+    return std::isnan(turn) ? std::numeric_limits<double>::infinity() : turn;
+}
+
+} // namespace
+
+std::vector<SampleQuery> cornersOf(const Surface& surface) {
+    std::vector<SampleQuery> queries;
+    for (std::uint32_t face = 0; face < surface.faces.size(); ++face) {
+        if (surface.faces[face].root == kNoPatch) continue;
+        for (int corner = 0; corner < surface.sideCount; ++corner)
+            queries.push_back({face, vec2(sidePoint(surface.sideCount, corner, 0))});
+    }
+    return queries;
+}
+
+CornerReport reportCorners(const ReferenceSurface& reference, std::span<const SampleQuery> queries,
+                           std::span<const SampleResult> results) {
+    CornerReport report{.count = queries.size()};
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const double turn = turnAtCorner(reference, queries[i], dvec3(results[i].n));
+        if (turn <= report.max) continue;
+        report.max = turn;
+        report.worst = {queries[i].face, queries[i].uv};
+    }
+    return report;
+}
+
+} // namespace relief

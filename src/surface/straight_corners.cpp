@@ -1,0 +1,115 @@
+// Corners whose two sides continue each other: found by the weights of their tangents, so whatever the cage's
+// positions.
+#include <array>
+#include <cmath>
+
+#include "surface/gregory.h"
+#include "surface/rows.h"
+
+namespace relief {
+namespace {
+
+/// Compares rows as vectors of weights, as seen from a third row.
+class RowAngles {
+public:
+    explicit RowAngles(std::size_t cagePointCount) : sums_(cagePointCount) {}
+
+    /// Cosine of the angle between a - origin and b - origin; 1 where one of them vanishes.
+    double cosine(const RowTable& rows, std::size_t origin, std::size_t a, std::size_t b) {
+        add(rows.row(origin), {-1, -1});
+        add(rows.row(a), {1, 0});
+        add(rows.row(b), {0, 1});
+        double aa = 0, ab = 0, bb = 0;
+        for (const std::uint32_t i : used_) {
+            const dvec2 sum = sums_[i]; // 0 at the second visit of a point
+            aa += sum.x * sum.x, ab += sum.x * sum.y, bb += sum.y * sum.y;
+            sums_[i] = dvec2(0);
+        }
+        used_.clear();
+        return aa * bb > 0 ? ab / std::sqrt(aa * bb) : 1;
+    }
+
+private:
+    void add(std::span<const RowTable::Entry> row, const dvec2& weight) {
+        for (const RowTable::Entry& entry : row) {
+            sums_[entry.index] += entry.weight * weight;
+            used_.push_back(entry.index);
+        }
+    }
+
+    std::vector<dvec2> sums_; ///< per cage point: of a - origin and b - origin
+    std::vector<std::uint32_t> used_;
+};
+
+/// OpenSubdiv's own tangents at such corners are 1.5e-5 off parallel.
+constexpr double kStraightCosine = -1 + 1e-7;
+
+/// Of a corner of a face: its (u,v), and the directions along its two sides into the face, by (u,v).
+struct CornerDirections {
+    dvec2 uv, next, previous;
+};
+
+CornerDirections directionsAt(int sideCount, int corner) {
+    const dvec2 uv = sidePoint(sideCount, corner, 0);
+    const int before = (corner + sideCount - 1) % sideCount;
+    return {uv, sidePoint(sideCount, corner, 1) - uv, sidePoint(sideCount, before, 0) - uv};
+}
+
+class StraightCornerBuilder {
+public:
+    StraightCornerBuilder(Surface& surface, RowTable& rows)
+        : surface_(surface), rows_(rows), angles_(surface.controlPointCount) {}
+
+    void build() {
+        std::vector<std::uint32_t> points;
+        points.reserve(surface_.patchPoints.size());
+        for (Patch& patch : surface_.patches) {
+            const auto net = std::span(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
+            patch.firstPoint = std::uint32_t(points.size());
+            points.insert(points.end(), net.begin(), net.end());
+            if (patch.type != kPatchGregory && patch.type != kPatchGregoryTriangle) continue;
+            for (int corner = 0; corner < surface_.sideCount; ++corner)
+                if (isStraight(net, corner)) addCorner(patch, net, corner, points);
+        }
+        surface_.patchPoints = std::move(points);
+    }
+
+private:
+    using Net = std::span<const std::uint32_t>;
+
+    /// Five points belong to each corner: itself, one along each of its sides, and two inside.
+    [[nodiscard]] bool isStraight(const Net& net, int corner) {
+        const std::uint32_t* points = &net[5 * std::size_t(corner)];
+        return angles_.cosine(rows_, points[0], points[1], points[2]) < kStraightCosine;
+    }
+
+    void addCorner(Patch& patch, const Net& net, int corner, std::vector<std::uint32_t>& points) {
+        patch.straightCorners |= 1u << corner;
+        const CornerDirections at = directionsAt(surface_.sideCount, corner);
+        const PatchWeights weights = patch.type == kPatchGregory ? gregoryQuadWeights(at.uv.x, at.uv.y)
+                                                                 : gregoryTriangleWeights(at.uv.x, at.uv.y);
+        const double slope = std::ldexp(1.0, depthInFace({patch.param0, patch.param1}));
+        const dvec2 along = at.next, diagonal = at.next + at.previous;
+        std::array<RowTable::Entry, kMostPatchPoints> tangent, second;
+        for (std::size_t i = 0; i < net.size(); ++i) {
+            const Jet& w = weights[i];
+            const double t = w.u * along.x + w.v * along.y;
+            const double d =
+                w.uu * diagonal.x * diagonal.x + 2 * w.uv * diagonal.x * diagonal.y + w.vv * diagonal.y * diagonal.y;
+            tangent[i] = {net[i], w.f + slope * t};
+            second[i] = {net[i], w.f + slope * slope * d};
+        }
+        points.push_back(std::uint32_t(rows_.append(std::span(tangent).first(net.size()))));
+        points.push_back(std::uint32_t(rows_.append(std::span(second).first(net.size()))));
+    }
+
+    Surface& surface_;
+    RowTable& rows_;
+    RowAngles angles_;
+};
+
+} // namespace
+
+void addStraightCorners(Surface& surface, RowTable& rows) { StraightCornerBuilder(surface, rows).build(); }
+
+} // namespace relief

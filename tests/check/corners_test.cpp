@@ -1,0 +1,44 @@
+// A device whose normals flip in corners is found, and one that takes them from the reference is not.
+#include <gtest/gtest.h>
+
+#include "check/check.h"
+#include "meshes.h"
+
+namespace relief::test {
+namespace {
+
+/// Limit normals in the corners of the cage's faces, as exact as the reference.
+std::vector<SampleResult> exactNormals(const ReferenceSurface& reference, std::span<const SampleQuery> corners) {
+    std::vector<SampleResult> results;
+    for (const SampleQuery& corner : corners)
+        results.push_back({.n = vec3(reference.normal(int(corner.face), dvec2(corner.uv)))});
+    return results;
+}
+
+TEST(Corners, ofExactNormalsTurnLittle) {
+    for (const NamedCage& named : allCages()) {
+        if (named.name == "cubeWithCollapsedEdge") continue; // it has corners without a tangent plane
+        const ReferenceSurface reference(named.cage, {});
+        const std::vector<SampleQuery> corners = cornersOf(buildSurface(named.cage, {}));
+        const CornerReport report = reportCorners(reference, corners, exactNormals(reference, corners));
+        EXPECT_EQ(report.count, corners.size());
+        EXPECT_LT(report.max, 10) << named.name << " face " << report.worst.face;
+    }
+}
+
+TEST(Corners, whoseNormalFlipsAreFound) {
+    const Cage cage = hillyGrid();
+    const ReferenceSurface reference(cage, {});
+    const std::vector<SampleQuery> corners = cornersOf(buildSurface(cage, {}));
+    std::vector<SampleResult> results = exactNormals(reference, corners);
+    results[5].n = -results[5].n;
+    const CornerReport report = reportCorners(reference, corners, results);
+    EXPECT_GT(report.max, 160);
+    EXPECT_EQ(report.worst.face, corners[5].face);
+    EXPECT_EQ(report.worst.uv, corners[5].uv);
+    results[7].n = vec3(std::nanf(""));
+    EXPECT_FALSE(std::isfinite(reportCorners(reference, corners, results).max));
+}
+
+} // namespace
+} // namespace relief::test

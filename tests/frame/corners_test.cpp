@@ -1,0 +1,91 @@
+// Straight corners of faces on the device: normals and displaced points against the reference, on all paths.
+#include <random>
+
+#include "device.h"
+#include "meshes.h"
+
+namespace relief::test {
+namespace {
+
+class StraightCorners : public OnDevice {};
+
+/// Rough hills on a grid of quads.
+Cage roughGrid(int columns, int rows, std::uint32_t seed) {
+    Cage cage = boundaryGrid(columns, rows);
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> rough(-0.15F, 0.15F);
+    for (vec3& p : cage.positions) p += vec3(rough(random), rough(random), rough(random));
+    return cage;
+}
+
+/// A prism whose two rims are infinitely sharp: each cap lies alone in the corners of its rim.
+Cage creasedPrism(int sides) {
+    Cage cage = nGonPrism(sides);
+    for (std::uint32_t i = 0; i < std::uint32_t(sides); ++i)
+        for (const std::uint32_t rim : {0u, std::uint32_t(sides)})
+            addCrease(cage, rim + i, rim + (i + 1) % std::uint32_t(sides), 10);
+    return cage;
+}
+
+std::vector<SampleQuery> cornerQueries(const Surface& surface) {
+    std::vector<SampleQuery> queries;
+    for (std::uint32_t face = 0; face < surface.faces.size(); ++face)
+        for (int corner = 0; corner < surface.sideCount; ++corner)
+            if (surface.faces[face].root != kNoPatch)
+                queries.push_back({face, vec2(sidePoint(surface.sideCount, corner, 0))});
+    return queries;
+}
+
+double degreesBetween(const dvec3& a, const dvec3& b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
+/// The largest angle between the device's limit normals in corners and the reference's.
+double worstCornerNormal(const Cage& cage, const SurfaceOptions& options) {
+    const Surface surface = buildSurface(cage, options);
+    const ReferenceSurface reference(cage, options);
+    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const std::vector<SampleQuery> queries = cornerQueries(surface);
+    const std::vector<SampleResult> results = sampler().sample(model, queries, {});
+    double worst = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        worst = std::max(
+            worst, degreesBetween(reference.normal(int(queries[i].face), dvec2(queries[i].uv)), dvec3(results[i].n)));
+    return worst;
+}
+
+TEST_F(StraightCorners, haveTheReferencesNormals) {
+    for (const int isolation : {0, 3, 6, 10})
+        for (std::uint32_t seed = 0; seed < 4; ++seed) {
+            const Cage quads = roughGrid(1 + int(seed % 3), 1 + int(seed / 2), seed);
+            EXPECT_LT(worstCornerNormal(quads, {.isolation = isolation}), 0.1) << seed << " at " << isolation;
+            EXPECT_LT(worstCornerNormal(triangulated(quads), {.scheme = Scheme::loop, .isolation = isolation}), 0.1)
+                << seed << " at " << isolation;
+        }
+    for (int sides = 3; sides <= 16; ++sides) EXPECT_LT(worstCornerNormal(creasedPrism(sides), {}), 0.1) << sides;
+}
+
+// Where a face is a hundredth of the object, differences of its corner's rounded control points would be noise.
+TEST_F(StraightCorners, areAsExactOnSmallFaces) { EXPECT_LT(worstCornerNormal(roughGrid(100, 100, 5), {}), 0.5); }
+
+/// A map that lifts everything by 1.
+HeightMap plateau() { return makeHeightMap(2, 2, {1, 1, 1, 1}, 0, 1, Wrap::clamp); }
+
+// A sheet moves along its normal: no corner may go the other way.
+TEST_F(StraightCorners, ofALiftedSheetAreLifted) {
+    const Cage cage = boundaryGrid(1, 1);
+    const Surface surface = buildSurface(cage, {});
+    const HeightMap map = plateau();
+    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    Capturer capturer(device());
+    for (const Path path : {Path::tessellation, Path::grid, Path::dice}) {
+        if (path == Path::tessellation && !device().traits().hasTessellation) continue;
+        const EdgeRates rates{model.uniformRates(4), Spacing::equal, std::vector<float>(model.cornerCount(), 0)};
+        const CapturedMesh mesh = capturer.capture(model, {.path = path, .rate = 4}, rates);
+        ASSERT_GT(mesh.positions.size(), 0u);
+        for (const vec3& p : mesh.positions) EXPECT_NEAR(p.y, 1, 1e-5) << "path " << int(path);
+    }
+}
+
+} // namespace
+} // namespace relief::test
