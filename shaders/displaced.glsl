@@ -163,7 +163,8 @@ HeightSample heightAt(SurfacePoint point, float level) {
 }
 
 // Walks the faces that meet at the place, in the edge's fixed order: one of them where the surface is smooth, all where
-// the normal has to be agreed on. The first is the owner: it gives the point and the height.
+// the normal has to be agreed on: of each sector between sharp edges the faces share one vote, so that a direction does not
+// jump from an edge to the corner at its end. The first face is the owner: it gives the point and the height.
 DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
 #ifdef RELIEF_MUTANT_OWNER // a test of the tests: one edge of sixteen is evaluated at whatever face is drawn
     Touch o = place.owner;
@@ -176,13 +177,17 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
     bool isOwn = false;
     for (uint i = 0u; i < count; ++i) {
         Touch touch = place.owner;
-        if (place.touchCount > 0u) touch = fetchTouch(place.firstTouch + i);
+        float share = 1.0;
+        if (place.touchCount > 0u) {
+            touch = fetchTouch(place.firstTouch + i);
+            if (touch.start == touch.end) share = sectorShare(place.firstTouch + i);
+        }
         vec2 uv = place.isInside ? place.uv : touchPoint(touch, place.t);
         bool isTouchOfFace = touch.face == face && !isOwn;
         bool isUsed = i == 0u || isTouchOfFace;
         Leaf leaf = findLeaf(touch.face, uv);
         SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex), leaf, uv, isUsed);
-        direction += point.n;
+        direction += share * point.n;
         if (isUsed) {
             isOwn = touch.face == face;
             HeightSample height = heightAt(point, place.level);

@@ -49,6 +49,9 @@ Face fetchFace(uint face) {
 Touch touchOf(uvec4 a) { return Touch(a.x, a.y & 255u, uintBitsToFloat(a.z), uintBitsToFloat(a.w)); }
 Touch fetchTouch(uint i) { return touchOf(recordTexel(scene.firstTouch, kTouchTexels, i, 0u)); }
 
+// Of a touch at a corner: its share in the direction that the faces there agree on.
+float sectorShare(uint touch) { return 1.0 / float(recordTexel(scene.firstTouch, kTouchTexels, touch, 0u).y >> 8); }
+
 Edge fetchEdge(uint i) {
     uvec4 a = recordTexel(scene.firstEdge, kEdgeTexels, i, 0u);
     uint span = a.y >> 30, partner = a.z >> 30;

@@ -48,12 +48,14 @@ void appendCorners(std::vector<std::uint32_t>& words, const Surface& surface) {
 }
 
 void appendTouches(std::vector<std::uint32_t>& words, const Surface& surface) {
-    const std::size_t first = words.size();
-    for (const Touch& touch : surface.touches)
-        append(words, touch.face, touch.side, std::bit_cast<std::uint32_t>(touch.start),
-               std::bit_cast<std::uint32_t>(touch.end));
+    std::vector<std::uint32_t> counts = surface.sectorFaces;
     for (const Edge& edge : surface.edges)
-        if (edge.touchCount > 0) words[first + 4 * std::size_t(edge.firstTouch) + 1] |= edge.touchCount << 8;
+        if (edge.touchCount > 0) counts[edge.firstTouch] = edge.touchCount;
+    for (std::size_t i = 0; i < surface.touches.size(); ++i) {
+        const Touch& touch = surface.touches[i];
+        append(words, touch.face, touch.side | counts[i] << 8, std::bit_cast<std::uint32_t>(touch.start),
+               std::bit_cast<std::uint32_t>(touch.end));
+    }
 }
 
 /// Numbers of control points, in texels that begin with whole ones.

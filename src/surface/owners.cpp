@@ -10,6 +10,7 @@
 //         /    |    \                      .
 //        0 --- + --- 1                     An edge of the cage with an n-gon on any side is two edges here.
 #include <algorithm>
+#include <numeric>
 
 #include "surface/far.h"
 
@@ -113,11 +114,21 @@ private:
 
     // --- corners
 
+    /// A face at a corner, and how many drawn faces its smooth sector has there.
+    struct CornerTouch {
+        Touch touch;
+        std::uint32_t sectorFaces;
+    };
+
     /// Adds a corner that belongs to the lowest face.
-    std::uint32_t addCorner(std::vector<Touch>& touches, bool isAgreed) {
-        sortByFace(touches);
-        Corner corner{touches.front(), std::uint32_t(surface_.touches.size()), 0, 0};
-        if (isAgreed) corner.touchCount = addTouches(touches);
+    std::uint32_t addCorner(std::vector<CornerTouch>& touches, bool isAgreed) {
+        std::ranges::stable_sort(touches, {}, [](const CornerTouch& t) { return t.touch.face; });
+        Corner corner{touches.front().touch, std::uint32_t(surface_.touches.size()), 0, 0};
+        if (isAgreed) corner.touchCount = std::uint32_t(touches.size());
+        for (std::uint32_t i = 0; i < corner.touchCount; ++i) {
+            surface_.touches.push_back(touches[i].touch);
+            surface_.sectorFaces.push_back(touches[i].sectorFaces);
+        }
         surface_.corners.push_back(corner);
         return std::uint32_t(surface_.corners.size() - 1);
     }
@@ -129,7 +140,26 @@ private:
 
     std::uint32_t addTouches(const std::vector<Touch>& touches) {
         surface_.touches.insert(surface_.touches.end(), touches.begin(), touches.end());
+        surface_.sectorFaces.resize(surface_.touches.size(), 1);
         return std::uint32_t(touches.size());
+    }
+
+    /// Drawn faces of the smooth sector of each face around the vertex, in the order of its faces. Faces that share a
+    /// smooth edge there are of one sector.
+    [[nodiscard]] std::vector<std::uint32_t> sectorsAround(int vertex) const {
+        const auto faces = level_.GetVertexFaces(vertex);
+        std::vector<int> sector(faces.size());
+        std::iota(sector.begin(), sector.end(), 0);
+        for (const int edge : level_.GetVertexEdges(vertex)) {
+            const auto sides = level_.GetEdgeFaces(edge);
+            if (isAgreedEdge(edge) || sides.size() != 2) continue;
+            const int joined = sector[faces.FindIndex(sides[0])], old = sector[faces.FindIndex(sides[1])];
+            std::ranges::replace(sector, old, joined);
+        }
+        std::vector<std::uint32_t> drawn(faces.size(), 0), counts(faces.size());
+        for (int i = 0; i < faces.size(); ++i) drawn[sector[i]] += level_.IsFaceHole(faces[i]) ? 0 : 1;
+        for (int i = 0; i < faces.size(); ++i) counts[i] = drawn[sector[i]];
+        return counts;
     }
 
     void addVertexCorners() {
@@ -137,25 +167,28 @@ private:
         for (int vertex = 0; vertex < level_.GetNumVertices(); ++vertex) {
             const auto faces = level_.GetVertexFaces(vertex);
             const auto positions = level_.GetVertexFaceLocalIndices(vertex);
-            std::vector<Touch> touches;
+            const bool isAgreed = isAgreedVertex(vertex);
+            std::vector<std::uint32_t> sectors(faces.size(), 1);
+            if (isAgreed) sectors = sectorsAround(vertex);
+            std::vector<CornerTouch> touches;
             for (int i = 0; i < faces.size(); ++i) {
                 if (level_.IsFaceHole(faces[i])) continue;
                 const int corner = isNgon(faces[i]) ? 0 : positions[i];
-                touches.push_back({quadOf(faces[i], positions[i]), std::uint32_t(corner), 0, 0});
+                touches.push_back({{quadOf(faces[i], positions[i]), std::uint32_t(corner), 0, 0}, sectors[i]});
             }
-            if (!touches.empty()) cornerOfVertex_[vertex] = addCorner(touches, isAgreedVertex(vertex));
+            if (!touches.empty()) cornerOfVertex_[vertex] = addCorner(touches, isAgreed);
         }
     }
 
     /// The middle of a split edge is a corner of n-gons' quads and a point on the sides of quads.
     std::uint32_t addMiddleCorner(const std::vector<SideUse>& uses, bool isAgreed) {
-        std::vector<Touch> touches;
+        std::vector<CornerTouch> touches;
         for (const SideUse& use : uses) {
             if (isNgon(use.face)) {
-                touches.push_back({quadOf(use.face, use.side), 1, 0, 0});
-                touches.push_back({quadOf(use.face, use.side + 1), 3, 0, 0});
+                touches.push_back({{quadOf(use.face, use.side), 1, 0, 0}, 2});
+                touches.push_back({{quadOf(use.face, use.side + 1), 3, 0, 0}, 2});
             } else {
-                touches.push_back({quadOf(use.face, 0), std::uint32_t(use.side), 0.5F, 0.5F});
+                touches.push_back({{quadOf(use.face, 0), std::uint32_t(use.side), 0.5F, 0.5F}, 1});
             }
         }
         return addCorner(touches, isAgreed);
@@ -234,9 +267,9 @@ private:
     /// The centre of an n-gon and the edges that run from its sides' middles to the centre.
     void addInside(int face) {
         const int size = sizeOf(face);
-        std::vector<Touch> touches;
+        std::vector<CornerTouch> touches;
         touches.reserve(size);
-        for (int i = 0; i < size; ++i) touches.push_back({quadOf(face, i), 2, 0, 0});
+        for (int i = 0; i < size; ++i) touches.push_back({{quadOf(face, i), 2, 0, 0}, 1});
         const std::uint32_t center = addCorner(touches, isBilinear_);
         for (int i = 0; i < size; ++i) {
             const std::uint32_t middle = middleOfSide(face, i);

@@ -43,6 +43,9 @@ struct Surface {
     std::vector<Edge> edges;
     std::vector<Corner> corners;
     std::vector<Touch> touches;
+    /// Per touch: drawn faces of its smooth sector, the faces around a corner between two sharp edges. Each sector
+    /// counts once in the direction that the faces share, however many faces it has. 1 along edges.
+    std::vector<std::uint32_t> sectorFaces;
 
     bool isClosed = false;   ///< no boundary edges and no holes
     double tableSeconds = 0; ///< time that building took, most of it inside OpenSubdiv

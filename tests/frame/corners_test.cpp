@@ -1,4 +1,5 @@
 // Straight corners of faces on the device: normals and displaced points against the reference, on all paths.
+#include <map>
 #include <random>
 
 #include "device.h"
@@ -8,6 +9,12 @@ namespace relief::test {
 namespace {
 
 class StraightCorners : public OnDevice {};
+
+/// Compiles its shaders once for all tests.
+Capturer& capturer() {
+    static Capturer instance(device());
+    return instance;
+}
 
 /// Rough hills on a grid of quads.
 Cage roughGrid(int columns, int rows, std::uint32_t seed) {
@@ -77,14 +84,50 @@ TEST_F(StraightCorners, ofALiftedSheetAreLifted) {
     const Surface surface = buildSurface(cage, {});
     const HeightMap map = plateau();
     const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-    Capturer capturer(device());
     for (const Path path : {Path::tessellation, Path::grid, Path::dice}) {
         if (path == Path::tessellation && !device().traits().hasTessellation) continue;
         const EdgeRates rates{model.uniformRates(4), Spacing::equal, std::vector<float>(model.cornerCount(), 0)};
-        const CapturedMesh mesh = capturer.capture(model, {.path = path, .rate = 4}, rates);
+        const CapturedMesh mesh = capturer().capture(model, {.path = path, .rate = 4}, rates);
         ASSERT_GT(mesh.positions.size(), 0u);
         for (const vec3& p : mesh.positions) EXPECT_NEAR(p.y, 1, 1e-5) << "path " << int(path);
     }
+}
+
+/// Where the points of the upper rim of a creased prism go when everything is lifted, by their angle around the axis.
+std::map<double, dvec3> rimDirections(int sides, Path path) {
+    const Cage cage = creasedPrism(sides);
+    const Surface surface = buildSurface(cage, {.isolation = 3});
+    const HeightMap map = plateau();
+    const Model flat(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const Model lifted(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const EdgeRates rates{flat.uniformRates(16), Spacing::equal, std::vector<float>(flat.cornerCount(), 0)};
+    const CapturedMesh from = capturer().capture(flat, {.path = path}, rates),
+                       to = capturer().capture(lifted, {.path = path}, rates);
+    const auto isLower = [](const vec3& a, const vec3& b) { return a.y < b.y; };
+    const float top = std::ranges::max_element(from.positions, isLower)->y;
+    std::map<double, dvec3> directions;
+    for (std::size_t i = 0; i < from.positions.size(); ++i) {
+        const vec3 p = from.positions[i];
+        const dvec3 direction(to.positions[i] - p);
+        if (top - p.y < 1e-4F && glm::length(vec2(direction.x, direction.z)) > 0.1F)
+            directions[std::atan2(p.z, p.x)] = direction;
+    }
+    return directions;
+}
+
+// A corner has one face of the cap and two of the sides; an edge has one of each. Counted by face, corners would stick
+// out.
+TEST_F(StraightCorners, ofARimMoveTheWayItsEdgesDo) {
+    for (const int sides : {3, 4, 5, 8})
+        for (const Path path : {Path::grid, Path::dice}) {
+            const auto directions = rimDirections(sides, path);
+            ASSERT_GE(directions.size(), std::size_t(16 * sides));
+            dvec3 last = directions.rbegin()->second;
+            for (const auto& [angle, direction] : directions) {
+                EXPECT_LT(degreesBetween(last, direction), 11) << sides << " sides, at " << glm::degrees(angle);
+                last = direction;
+            }
+        }
 }
 
 } // namespace
