@@ -113,7 +113,7 @@ std::vector<SampleQuery> cornersOf(const Surface& surface);
 /// reference could share a mistake: p_u and p_v may be parallel there.
 struct CornerReport {
     std::uint64_t count = 0;
-    /// Degrees from the normal a 64th of the face away along the diagonal, less what the normal turns on the next 64th.
+    /// Degrees from the normal 1/1024 of the face away along the diagonal, less what the normal turns in as much again.
     double max = 0;
     SurfacePlace worst;
 };
