@@ -78,18 +78,28 @@ TEST_F(StraightCorners, areAsExactOnSmallFaces) { EXPECT_LT(worstCornerNormal(ro
 /// A map that lifts everything by 1.
 HeightMap plateau() { return makeHeightMap(2, 2, {1, 1, 1, 1}, 0, 1, Wrap::clamp); }
 
+/// One square in the plane y = 0, turned by `turn` radians: rounding differs from turn to turn.
+Cage turnedSquare(float turn) {
+    Cage cage = boundaryGrid(1, 1);
+    for (vec3& p : cage.positions)
+        p = 1.7F * vec3(std::cos(turn) * p.x - std::sin(turn) * p.z, 0, std::sin(turn) * p.x + std::cos(turn) * p.z);
+    return cage;
+}
+
 // A sheet moves along its normal: no corner may go the other way.
 TEST_F(StraightCorners, ofALiftedSheetAreLifted) {
-    const Cage cage = boundaryGrid(1, 1);
-    const Surface surface = buildSurface(cage, {});
     const HeightMap map = plateau();
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-    for (const Path path : {Path::tessellation, Path::grid, Path::dice}) {
-        if (path == Path::tessellation && !device().traits().hasTessellation) continue;
+    for (int k = 0; k < 8; ++k) {
+        const Cage cage = turnedSquare(0.3F * float(k));
+        const Surface surface = buildSurface(cage, {});
+        const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
         const EdgeRates rates{model.uniformRates(4), Spacing::equal, std::vector<float>(model.cornerCount(), 0)};
-        const CapturedMesh mesh = capturer().capture(model, {.path = path, .rate = 4}, rates);
-        ASSERT_GT(mesh.positions.size(), 0u);
-        for (const vec3& p : mesh.positions) EXPECT_NEAR(p.y, 1, 1e-5) << "path " << int(path);
+        for (const Path path : {Path::tessellation, Path::grid, Path::dice}) {
+            if (path == Path::tessellation && !device().traits().hasTessellation) continue;
+            const CapturedMesh mesh = capturer().capture(model, {.path = path, .rate = 4}, rates);
+            ASSERT_GT(mesh.positions.size(), 0u);
+            for (const vec3& p : mesh.positions) EXPECT_NEAR(p.y, 1, 1e-5) << "path " << int(path) << " turn " << k;
+        }
     }
 }
 
