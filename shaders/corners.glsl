@@ -17,7 +17,7 @@ uint cornerAt(vec2 uv) {
 #endif
 }
 
-// The derivative of p_u x p_v along the diagonal of a straight corner, t x d; zero at all other points.
+// What p_u x p_v becomes along the diagonal of a straight corner, t x d; zero at all other points.
 vec3 straightCornerNormal(NetPair nets, vec2 uv) {
     uint corner = cornerAt(uv), bit = 1u << corner;
     if ((nets.straightCorners & bit) == 0u) return vec3(0);

@@ -49,11 +49,12 @@ RELIEF_SHARED_FUNCTION uint patchSize(uint type) {
 }
 
 // A corner of a face is straight where its two sides continue each other: the face lies alone between two edges that are one
-// smooth curve (a corner of a smooth boundary, a creased rim), or is one of two faces around a vertex. Its tangents along the
-// two sides are t and -t, so p_u x p_v vanishes there. The normal is the limit along the diagonal from the corner into the
-// face: after the step s the product is s (t x d) to first order, where d is the second derivative of p along the diagonal.
-// The points p + t and p + d (p, t, d by the face's coordinates) follow the control points of the patch, two per straight corner in
-// the order of its corners: their rounding is that of points, where differences of control points would lose all digits.
+// smooth curve (a corner of a smooth boundary, a creased rim). Its tangents along the two sides are t and -t, so p_u x p_v
+// vanishes there. The normal is the limit along the diagonal from the corner into the face: after the step s the product is
+// s (t x d) to first order, where d is the second derivative of p along the diagonal. Around a vertex of two faces both
+// tangents vanish; there t and d are the derivatives along the diagonal of the tangents of the two sides, and the product is
+// s^2 (t x d). The points p + t and p + d (p, t, d by the face's coordinates) follow the control points of the patch, two per
+// such corner in the order of its corners: their rounding is that of points, where differences of control points lose all digits.
 
 struct Patch {
     uint firstPoint;     // into Surface::patchPoints
@@ -63,7 +64,7 @@ struct Patch {
     uint texFirstPoint;  // into Surface::texPatchPoints
     uint texParam1;      // the face-varying patch's field1 (its boundary mask differs)
     uint texType;        // kPatch...
-    uint straightCorners; // bit c: corner c is straight
+    uint straightCorners; // bit c: corner c is straight, or its tangents vanish
 };
 
 struct Face {

@@ -208,12 +208,13 @@ dvec3 ReferenceSurface::areaNormal(int face, const dvec2& uv) const {
 }
 
 dvec3 ReferenceSurface::normal(int face, const dvec2& uv) const {
-    const LimitFrame here = limit(face, uv);
-    const dvec3 product = areaNormal(face, uv);
-    if (glm::length(product) > kParallel * std::max(glm::dot(here.pu, here.pu), glm::dot(here.pv, here.pv)))
-        return glm::normalize(product);
+    const auto largestSquare = [](const LimitFrame& f) { return std::max(glm::dot(f.pu, f.pu), glm::dot(f.pv, f.pv)); };
     const dvec2 center(parts_->sideCount == 4 ? 1.0 / 2 : 1.0 / 3);
-    for (const double step : {1e-4, 1e-3, 1e-2, 1e-1, 1.0}) {
+    const double here = largestSquare(limit(face, uv));
+    const bool vanishes = here < kParallel * kParallel * largestSquare(limit(face, center));
+    const dvec3 product = areaNormal(face, uv);
+    if (!vanishes && glm::length(product) > kParallel * here) return glm::normalize(product);
+    for (const double step : {1e-3, 1e-2, 1e-1, 1.0}) {
         const LimitFrame frame = limit(face, glm::mix(uv, center, step));
         if (frame.hasTangentPlane()) return glm::normalize(glm::cross(frame.pu, frame.pv));
     }

@@ -1,5 +1,6 @@
-// Corners whose two sides continue each other: found by the weights of their tangents, so whatever the cage's
+// Corners whose tangents span no plane: found by the weights of the tangents, whatever the cage's
 // positions.
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -14,8 +15,10 @@ class RowAngles {
 public:
     explicit RowAngles(std::size_t cagePointCount) : sums_(cagePointCount) {}
 
-    /// Cosine of the angle between a - origin and b - origin; 1 where one of them vanishes.
-    double cosine(const RowTable& rows, std::size_t origin, std::size_t a, std::size_t b) {
+    struct Angle {
+        double length, cosine; ///< of the longer of a - origin and b - origin; between the two
+    };
+    Angle measure(const RowTable& rows, std::size_t origin, std::size_t a, std::size_t b) {
         add(rows.row(origin), {-1, -1});
         add(rows.row(a), {1, 0});
         add(rows.row(b), {0, 1});
@@ -26,7 +29,7 @@ public:
             sums_[i] = dvec2(0);
         }
         used_.clear();
-        return aa * bb > 0 ? ab / std::sqrt(aa * bb) : 1;
+        return {std::sqrt(std::max(aa, bb)), aa * bb > 0 ? ab / std::sqrt(aa * bb) : 1};
     }
 
 private:
@@ -41,8 +44,12 @@ private:
     std::vector<std::uint32_t> used_;
 };
 
-/// OpenSubdiv's own tangents at such corners are 1.5e-5 off parallel.
+/// OpenSubdiv's own tangents at straight corners are 1.5e-5 off parallel.
 constexpr double kStraightCosine = -1 + 1e-7;
+/// Of the weights of a tangent, for a patch as large as the face; a patch of half the size has half as much.
+constexpr double kVanishingTangent = 1e-3;
+
+enum class CornerKind { plain, straight, vanishing };
 
 /// Of a corner of a face: its (u,v), and the directions along its two sides into the face, by (u,v).
 struct CornerDirections {
@@ -68,8 +75,10 @@ public:
             patch.firstPoint = std::uint32_t(points.size());
             points.insert(points.end(), net.begin(), net.end());
             if (patch.type != kPatchGregory && patch.type != kPatchGregoryTriangle) continue;
-            for (int corner = 0; corner < surface_.sideCount; ++corner)
-                if (isStraight(net, corner)) addCorner(patch, net, corner, points);
+            for (int corner = 0; corner < surface_.sideCount; ++corner) {
+                const CornerKind kind = kindOf(patch, net, corner);
+                if (kind != CornerKind::plain) addCorner(patch, net, corner, kind, points);
+            }
         }
         surface_.patchPoints = std::move(points);
     }
@@ -78,29 +87,39 @@ private:
     using Net = std::span<const std::uint32_t>;
 
     /// Five points belong to each corner: itself, one along each of its sides, and two inside.
-    [[nodiscard]] bool isStraight(const Net& net, int corner) {
+    [[nodiscard]] CornerKind kindOf(const Patch& patch, const Net& net, int corner) {
         const std::uint32_t* points = &net[5 * std::size_t(corner)];
-        return angles_.cosine(rows_, points[0], points[1], points[2]) < kStraightCosine;
+        const RowAngles::Angle angle = angles_.measure(rows_, points[0], points[1], points[2]);
+        if (angle.length * magnification(patch) < kVanishingTangent) return CornerKind::vanishing;
+        return angle.cosine < kStraightCosine ? CornerKind::straight : CornerKind::plain;
     }
 
-    void addCorner(Patch& patch, const Net& net, int corner, std::vector<std::uint32_t>& points) {
+    static double magnification(const Patch& patch) {
+        return std::ldexp(1.0, depthInFace({patch.param0, patch.param1}));
+    }
+
+    /// Appends the two points whose directions from the corner span the tangent plane there.
+    void addCorner(Patch& patch, const Net& net, int corner, CornerKind kind, std::vector<std::uint32_t>& points) {
         patch.straightCorners |= 1u << corner;
         const CornerDirections at = directionsAt(surface_.sideCount, corner);
         const PatchWeights weights = patch.type == kPatchGregory ? gregoryQuadWeights(at.uv.x, at.uv.y)
                                                                  : gregoryTriangleWeights(at.uv.x, at.uv.y);
-        const double slope = std::ldexp(1.0, depthInFace({patch.param0, patch.param1}));
-        const dvec2 along = at.next, diagonal = at.next + at.previous;
-        std::array<RowTable::Entry, kMostPatchPoints> tangent, second;
+        const double scale = magnification(patch);
+        const dvec2 diagonal = at.next + at.previous;
+        const auto first = [&](const Jet& w) { return scale * (w.u * at.next.x + w.v * at.next.y); };
+        const auto second = [&](const Jet& w, const dvec2& by) {
+            return scale * scale *
+                   (diagonal.x * (w.uu * by.x + w.uv * by.y) + diagonal.y * (w.uv * by.x + w.vv * by.y));
+        };
+        const bool isStraight = kind == CornerKind::straight;
+        std::array<RowTable::Entry, kMostPatchPoints> one, other;
         for (std::size_t i = 0; i < net.size(); ++i) {
             const Jet& w = weights[i];
-            const double t = w.u * along.x + w.v * along.y;
-            const double d =
-                w.uu * diagonal.x * diagonal.x + 2 * w.uv * diagonal.x * diagonal.y + w.vv * diagonal.y * diagonal.y;
-            tangent[i] = {net[i], w.f + slope * t};
-            second[i] = {net[i], w.f + slope * slope * d};
+            one[i] = {net[i], w.f + (isStraight ? first(w) : second(w, at.next))};
+            other[i] = {net[i], w.f + second(w, isStraight ? diagonal : at.previous)};
         }
-        points.push_back(std::uint32_t(rows_.append(std::span(tangent).first(net.size()))));
-        points.push_back(std::uint32_t(rows_.append(std::span(second).first(net.size()))));
+        points.push_back(std::uint32_t(rows_.append(std::span(one).first(net.size()))));
+        points.push_back(std::uint32_t(rows_.append(std::span(other).first(net.size()))));
     }
 
     Surface& surface_;

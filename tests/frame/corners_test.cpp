@@ -72,6 +72,15 @@ TEST_F(StraightCorners, haveTheReferencesNormals) {
     for (int sides = 3; sides <= 16; ++sides) EXPECT_LT(worstCornerNormal(creasedPrism(sides), {}), 0.1) << sides;
 }
 
+// Around a vertex of two faces both tangents vanish.
+TEST_F(StraightCorners, ofTwoFacesAroundAVertexHaveTheReferencesNormals) {
+    Cage cage;
+    cage.positions = {{0, 0.1F, 0}, {-1, 0, 0}, {1, 0.2F, 0}, {0, 0, -1}, {0, 0.3F, 1}};
+    addFace(cage, {0, 1, 4, 2});
+    addFace(cage, {0, 2, 3, 1});
+    EXPECT_LT(worstCornerNormal(cage, {}), 0.5);
+}
+
 // Where a face is a hundredth of the object, differences of its corner's rounded control points would be noise.
 TEST_F(StraightCorners, areAsExactOnSmallFaces) { EXPECT_LT(worstCornerNormal(roughGrid(100, 100, 5), {}), 0.5); }
 

@@ -104,5 +104,17 @@ TEST(StraightCorners, areFoundWhateverThePositions) {
         }
 }
 
+/// Two quads around a vertex in the middle of a sheet: it has two faces and two edges.
+Cage pairAroundVertex() {
+    return makeCage({{0, 0.1F, 0}, {-1, 0, 0}, {1, 0.2F, 0}, {0, 0, -1}, {0, 0.3F, 1}}, {{0, 1, 4, 2}, {0, 2, 3, 1}});
+}
+
+// Normals turn by 20 degrees over a 64th of a face beside a vertex of 17 faces, and less elsewhere.
+TEST(AllCorners, haveTheNormalOfTheSurfaceBesideThem) {
+    for (const Family& family : allFamilies()) EXPECT_LT(worstCornerNormal(family), 25) << family.name;
+    EXPECT_EQ(straightCornerCount(buildSurface(pairAroundVertex(), {})), 2 + 2);
+    EXPECT_LT(worstCornerNormal({"pair around a vertex", pairAroundVertex()}), 10);
+}
+
 } // namespace
 } // namespace relief
