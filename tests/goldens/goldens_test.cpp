@@ -29,15 +29,15 @@ constexpr Golden kGoldens[] = {
      "^plane --height @terrain.png --scale 0.8 --wrap clamp --path grid --edge-pixels 2 --elevation 30 "
      "--roughness 0.9 --color 0.4,0.45,0.3"},
     {"ball_albedo",
-     "^ball --height @waves.exr --scale 0.05 --albedo @checker.png --rate 12 --roughness 0.2 --transparent "
-     "--light -60,20"},
+     "^ball --height @waves.exr --scale 0.05 --albedo @checker.png --path grid --rate 12 --roughness 0.2 "
+     "--transparent --light -60,20"},
     {"ball_wireframe", "^ball --height @waves.exr --scale 0.1 --rate 6 --show wireframe --background 1,1,1"},
-    {"lantern_faces", "^lantern --rate 4 --show faces --azimuth 20 --elevation 18 --background 1,1,1"},
+    {"lantern_faces", "^lantern --path grid --rate 4 --show faces --azimuth 20 --elevation 18 --background 1,1,1"},
     {"torus_normal",
-     "^torus --height @waves.exr --scale 0.06 --rate 12 --show normal --elevation 35 --background 1,1,1"},
+     "^torus --height @waves.exr --scale 0.06 --path grid --rate 12 --show normal --elevation 35 --background 1,1,1"},
     {"torus_rate", "^torus --edge-pixels 3 --show rate --elevation 35 --background 1,1,1 --path grid"},
-    {"plane_height", "^plane --height @terrain.png --scale 0.8 --wrap clamp --rate 16 --show height --elevation 50 "
-                     "--background 1,1,1"},
+    {"plane_height", "^plane --height @terrain.png --scale 0.8 --wrap clamp --path grid --rate 16 --show height "
+                     "--elevation 50 --background 1,1,1"},
     {"cube_polygons", "^cube --scheme none --azimuth 35 --elevation 25 --background 1,1,1"},
 };
 
