@@ -1,6 +1,9 @@
 // The golden pictures: what they show, small changes that must not pass for them, and how one is drawn and compared.
 #pragma once
 
+#include <map>
+#include <optional>
+
 #include "comparison.h"
 #include "scenes.h"
 

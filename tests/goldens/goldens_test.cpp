@@ -74,13 +74,12 @@ TEST(GoldenComparison, ofTwoDriversForgivesOutlinesAndRounding) {
     EXPECT_FALSE(isSameOfAnotherDriver(compare(drawn, golden))) << compare(drawn, golden);
 }
 
-/// A golden in which one face has a color that is off by two codes in one channel.
+/// The light grey of heights at rest, with all that is nearly as light, by two codes.
 Image withAColorOffByTwoCodes(Image image) {
-    const std::vector<float> white(3, 1.0f);
-    for (std::size_t i = 0; i < image.texels.size(); i += 3) {
-        const float* color = &image.texels[i];
-        const bool isRest = color[0] > 0.85f && !std::equal(white.begin(), white.end(), color);
-        if (isRest) image.texels[i] -= 2.0f / 255;
+    const std::vector<float> background(3, 1.0f);
+    for (auto color = image.texels.begin(); color != image.texels.end(); color += 3) {
+        const bool isRest = *color > 0.85f && !std::equal(background.begin(), background.end(), color);
+        if (isRest) std::transform(color, color + 3, color, [](float value) { return value - 2.0f / 255; });
     }
     return image;
 }

@@ -1,7 +1,5 @@
 // The goldens by a second driver, SwiftShader: it shares no code with Mesa's, rounds in its own ways, and offers the
 // least that Vulkan promises. RELIEF_SWIFTSHADER is a compile definition: its manifest, or nothing.
-#include <optional>
-
 #include "goldens.h"
 
 namespace relief::test {
