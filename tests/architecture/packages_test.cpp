@@ -32,6 +32,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"opensubdiv/far/patchTable.h", "libosd-dev"},
     {"osdCPU", "libosd-dev"},
     {"osdGPU", "libosd-dev"},
+    {"vk_swiftshader_icd.json", "chromium-common"},
 };
 
 /// What no find_... names: tools, and what is loaded when relief runs.

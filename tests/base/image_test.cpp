@@ -129,6 +129,29 @@ TEST(Image, coloursAreNotMultipliedByAlpha) {
     }
 }
 
+TEST(Image, integersAreTheNearestCodesAndHalvesGoUp) {
+    const TemporaryFolder folder;
+    for (const auto& [sample, largest] : {std::pair{SampleType::uint8, 255}, {SampleType::uint16, 65535}}) {
+        Image image{.width = 3, .height = 85, .channels = 1, .texels = {}};
+        std::vector<float> rounded;
+        for (int code = 0; code < 255; ++code) {
+            const float step = code % 3 == 0 ? 0.49f : code % 3 == 1 ? 0.5f : 0.51f;
+            image.texels.push_back((float(code) + step) / float(largest));
+            rounded.push_back(float(code + (step < 0.5f ? 0 : 1)));
+        }
+        image.texels[1] = 0.5f, rounded[1] = float(largest / 2 + 1); // a half that floats hold exactly
+        for (const std::string name : {"a.png", "a.tif"}) {
+            writeImage(folder / name, image, sample);
+            const Image read = readImage(folder / name);
+            for (int i = 0; i < 255; ++i) {
+                const bool isExact = i % 3 != 1 || i == 1;
+                if (!isExact) continue;
+                EXPECT_EQ(std::round(read.texels[i] * float(largest)), rounded[i]) << name << ' ' << i;
+            }
+        }
+    }
+}
+
 TEST(Image, integersAreClamped) {
     const TemporaryFolder folder;
     const Image image{.width = 9, .height = 1, .channels = 1, .texels = {-1, 2, 1e30f, NAN, -INFINITY, 1, 1, 1, NAN}};

@@ -181,6 +181,32 @@ TEST_F(Pictures, areTheSameBitsInHoweverManyPartsAMeshIsDrawn) {
     }
 }
 
+/// What the middle of the picture shows of a face that is looked at straight: red, green and blue in codes of 8 bits.
+std::vector<float> codesOfFrontFace(const Model& model, RenderOptions options) {
+    options.camera = {.eye = {0, 0, 1000}, .fieldOfView = 0.1, .nearDistance = 900, .farDistance = 1100};
+    const Image image = renderer().render(model, options).image();
+    const float* middle = image.at(image.width / 2, image.height / 2);
+    EXPECT_EQ(middle[3], 1);
+    return {255 * middle[0], 255 * middle[1], 255 * middle[2]};
+}
+
+// Between codes, a color of a whole face would lie where devices could round it to either side. Ten bits and a half
+// float move it by at most 0.19 codes.
+TEST_F(Pictures, showColorsThatAreWholeCodes) {
+    Cage cage = hardCube();
+    for (const Show show : {Show::faces, Show::rate, Show::height})
+        for (std::uint32_t i = 1; i <= 5; ++i) {
+            std::rotate(cage.corners.begin(), cage.corners.begin() + 4, cage.corners.end()); // another face in front
+            const Surface surface = buildSurface(cage, {.isolation = 2});
+            const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+            RenderOptions options = optionsFor(cage, show);
+            options.path = Path::grid;
+            options.rate = show == Show::rate ? 12 * i : 1;
+            for (const float code : codesOfFrontFace(model, options))
+                EXPECT_NEAR(code, std::round(code), 0.2f) << int(show) << ' ' << i;
+        }
+}
+
 TEST_F(Pictures, refuseRatesPastTheTessellator) {
     const Cage cage = cube();
     const Surface surface = buildSurface(cage, {.isolation = 2});

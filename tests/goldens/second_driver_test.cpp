@@ -1,0 +1,63 @@
+// The goldens by a second driver, SwiftShader: it shares no code with Mesa's, rounds in its own ways, and offers the
+// least that Vulkan promises. RELIEF_SWIFTSHADER is a compile definition: its manifest, or nothing.
+#include "goldens.h"
+
+namespace relief::test {
+namespace {
+
+/// Vulkan's loader sees this driver alone until the end of the scope.
+class OnlyDriver {
+public:
+    explicit OnlyDriver(const char* manifest) {
+        if (const char* value = std::getenv(kVariable)) before_ = value;
+        setenv(kVariable, manifest, 1);
+    }
+    OnlyDriver(const OnlyDriver&) = delete;
+    OnlyDriver& operator=(const OnlyDriver&) = delete;
+    ~OnlyDriver() { before_ ? setenv(kVariable, before_->c_str(), 1) : unsetenv(kVariable); }
+
+private:
+    static constexpr const char* kVariable = "VK_DRIVER_FILES";
+    std::optional<std::string> before_;
+};
+
+class SecondDriver : public ::testing::TestWithParam<Golden> {
+protected:
+    void SetUp() override {
+        const bool isHere = contains(relief({"info", "--devices"}).out, kDevice);
+        if (!isHere) GTEST_SKIP() << kDevice << " is not here; on Debian the package chromium-common holds it";
+    }
+
+    static constexpr const char* kDevice = "SwiftShader";
+    OnlyDriver driver_{RELIEF_SWIFTSHADER};
+    SceneFolder scenes_;
+};
+
+/// Drivers turn sRGB texels into light by polynomials of their own: one value in fourteen is another code.
+double calmMeanOf(const std::string& golden) { return golden == "ball_albedo" ? 0.1 : kCalmMean; }
+
+TEST_P(SecondDriver, drawsTheGoldens) {
+    const Golden& golden = GetParam();
+    if (contains(golden.words, "--path tessellation")) GTEST_SKIP() << kDevice << " has no tessellation shaders";
+    const std::string drawn = drawGolden(scenes_, golden.name, golden.words, kDevice);
+    if (HasFailure()) return;
+    expectGolden(drawn, golden.name,
+                 [&](const Comparison& c) { return isSameOfAnotherDriver(c, calmMeanOf(golden.name)); });
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, SecondDriver, ::testing::ValuesIn(kGoldens),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+using SecondDriverMutants = SecondDriver;
+
+TEST_F(SecondDriverMutants, areSeen) {
+    for (const Mutant& mutant : kMutants) {
+        const std::string name = fmt::format("{}_mutant", mutant.golden);
+        const auto result = compareWithGolden(drawGolden(scenes_, name, mutatedWords(mutant), kDevice), mutant.golden);
+        ASSERT_TRUE(result);
+        EXPECT_FALSE(isSameOfAnotherDriver(*result)) << mutant.golden << ' ' << mutant.to << ": " << *result;
+    }
+}
+
+} // namespace
+} // namespace relief::test
