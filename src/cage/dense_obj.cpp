@@ -60,7 +60,7 @@ void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
     std::size_t soundCount = 0;
     for (std::size_t i = 0; i < triangleCount; ++i) soundCount += isDegenerate(mesh, places, i) ? 0 : 1;
     if (soundCount == 0)
-        fail(Failure::input, "{}: not written: every triangle of the mesh has two corners at one place", file.path());
+        fail(Failure::input, "{}: not written: every triangle of the mesh names a position twice", file.path());
     Progress progress("writing", places.count() + mesh.texCoords.size() + mesh.normals.size() + triangleCount, show);
     ObjLines lines(file);
     putValues(

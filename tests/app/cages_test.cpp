@@ -122,10 +122,12 @@ std::string unweldedCube(double shift = 0) {
     std::string text;
     int vertex = 0;
     for (const auto& face : corners) {
-        for (const int corner : face)
-            text += fmt::format("v {} {} {}\nvt {} {}\n",
-                                (corner % 4 == 1 || corner % 4 == 2 ? 1 : -1) + (++vertex % 2) * shift,
-                                corner < 4 ? -1 : 1, corner % 4 < 2 ? 1 : -1, vertex % 4 / 2, vertex % 2);
+        for (const int corner : face) {
+            ++vertex;
+            const double x = corner % 4 == 1 || corner % 4 == 2 ? 1 : -1;
+            text += fmt::format("v {} {} {}\nvt {} {}\n", x + (vertex % 2) * shift, corner < 4 ? -1 : 1,
+                                corner % 4 < 2 ? 1 : -1, vertex % 4 / 2, vertex % 2);
+        }
         text += fmt::format("f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", vertex - 3, vertex - 2, vertex - 1, vertex);
     }
     return text;

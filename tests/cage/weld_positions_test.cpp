@@ -82,13 +82,13 @@ TEST(MeshWriter, writesEachPositionOnceIntoObj) {
     }
 }
 
-TEST(MeshWriter, refusesObjWhoseTrianglesAllHaveTwoCornersAtOnePlace) {
+TEST(MeshWriter, refusesObjWhoseTrianglesAllNameAPositionTwice) {
     const TemporaryFolder folder;
     DenseMesh mesh;
     mesh.positions = {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}};
     mesh.normals.resize(3, vec3(0, 0, 1));
     mesh.indices = {0, 1, 2};
-    expectFailure(Failure::input, {"two corners at one place"}, [&] { writeMesh(folder / "a.obj", mesh); });
+    expectFailure(Failure::input, {"a position twice"}, [&] { writeMesh(folder / "a.obj", mesh); });
     EXPECT_EQ(folder.fileCount(), 0u);
 }
 
