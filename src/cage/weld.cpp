@@ -22,7 +22,7 @@ std::vector<std::uint32_t> boundaryVertices(const Cage& cage) {
         if (isLone) vertices.insert(vertices.end(), {cage.corners[uses[i].corner], cage.corners[uses[i].next]});
     }
     std::ranges::sort(vertices);
-    vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     return vertices;
 }
 
