@@ -18,7 +18,7 @@ RELIEF_CONSTANT uint kPoseWords = 5u;     // of stencils: first entry of each bl
 RELIEF_CONSTANT uint kPoseWeights = 6u;   // of stencils
 RELIEF_CONSTANT uint kPoseBindCount = 7u;
 
-// Stencils in blocks of sixteen rows over one list of cage points (entries) that serves all sixteen: neighbouring rows use
+// Stencils in blocks of sixteen rows over one list of points (entries) that serves all sixteen: neighbouring rows use
 // nearly the same points. Entries come in eights; what a row does not use has weight 0. Blocks with as many entries lie one
 // behind another. Weight of row r for entries e to e + 3 of all (e a multiple of 4): vector 4 e + r of kPoseWeights.
 RELIEF_CONSTANT uint kBlockRows = 16u;

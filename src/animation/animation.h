@@ -55,6 +55,9 @@ public:
 /// The cage as it stands, at all times.
 std::unique_ptr<Animation> stillPose(const Cage& cage);
 
+/// The motion of `points` alone, in their order: what moves a cage moves a welded one by WeldedCage::sources.
+std::unique_ptr<Animation> gather(std::unique_ptr<Animation> base, std::vector<std::uint32_t> points);
+
 // --- point caches ------------------------------------------------------------------------------------------------
 
 /// How positions between two keys are made.

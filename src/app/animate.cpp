@@ -9,6 +9,7 @@
 #include "app/clip.h"
 #include "app/commands.h"
 #include "app/frames.h"
+#include "app/weld.h"
 
 namespace relief::app {
 namespace {
@@ -136,9 +137,10 @@ private:
 FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(args), picture_(args.picture) {
     SurfaceArgs surface = args.surface;
     surface.pose.staysAtRest = true;
-    loaded_ = load(surface, output);
+    loaded_ = load(surface, output, picture_.albedo);
     if (loaded_.dense && loaded_.animation)
         fail(Failure::usage, "{}: what moves is a subdivision surface; name its --scheme", surface.cage);
+    warnOfPlainTags(loaded_, surface, output.warn());
     frames_ = framesOf(args, loaded_.animation.get());
     shading_ = loadShading(picture_);
     const std::vector<dvec3> points = outlineOfAll(loaded_);

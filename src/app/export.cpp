@@ -16,6 +16,7 @@ struct ExportArgs {
     CameraArgs camera;
     Output output;
     std::string target, device, heightSpace = "absolute";
+    bool weldsPositions = false;
 };
 
 /// A mesh and what is told of it, when everything that made it is gone.
@@ -95,6 +96,8 @@ int exportMesh(const ExportArgs& args) {
     checkMeshPath(args.target);
     checkWritable(args.target);
     Exported exported = dice(args);
+    // OBJ has each position once already, and texture coordinates beside it.
+    if (args.weldsPositions && lowerExtension(args.target) != ".obj") exported.mesh = weldPositions(exported.mesh);
     malloc_trim(0);
     const double start = secondsNow();
     writeMesh(args.target, exported.mesh, args.output.progress);
@@ -110,6 +113,8 @@ Run addExport(CLI::App& app) {
     addSurface(app, args->surface);
     addTime(app, args->surface.pose);
     app.add_option("-o,--output", args->target, "mesh to write: .ply, .obj or .glb")->required()->option_text("MESH");
+    app.add_flag("--weld-positions", args->weldsPositions,
+                 "one vertex a position, without texture coordinates: closed for a slicer (.obj always is)");
     addTriangles(app, args->triangles);
     addCamera(app, args->camera);
     addHeightSpace(app, args->heightSpace);

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/weld.h"
 #include "check/check.h"
 
 namespace relief::app {
@@ -23,8 +24,9 @@ json ofBounds(const Bounds& b) {
             {"diagonal", b.diagonal()}};
 }
 
-json ofCage(const std::string& path, const Warn& warn) {
-    const Cage cage = readCage(path, warn);
+json ofCage(const std::string& path, const std::string& weld, const Warn& warn) {
+    const Cage cage = welded(readCage(path, warn), weld);
+    checkTexCoords(cage, {}, warn);
     const CageSummary s = summarize(cage);
     json parts = json::array();
     for (const CagePart& part : cage.parts)
@@ -42,6 +44,7 @@ json ofCage(const std::string& path, const Warn& warn) {
             {"extraordinary_vertices", s.irregularVertexCount},
             {"max_valence", s.maxValence},
             {"unused_vertices", s.unusedVertexCount},
+            {"coincident_boundary_vertices", countCoincidentVertices(cage)},
             {"creased_edges", s.creasedEdgeCount},
             {"sharp_vertices", s.sharpVertexCount},
             {"holes", s.holeCount},
@@ -160,7 +163,7 @@ int info(const InfoArgs& args) {
     const Warn warn = args.isQuiet || hasMap ? Warn([](const std::string&) {}) : Warn(warnOnStderr);
     json all = json::array();
     for (const std::string& file : args.files) {
-        all.push_back(isCage(file) ? ofCage(file, warn) : ofPicture(file));
+        all.push_back(isCage(file) ? ofCage(file, args.surface.weld, warn) : ofPicture(file));
         if (isCage(file) && hasMap) all.back().update(ofSeams(args.surface, file, args.isQuiet));
     }
     if (args.listsDevices)

@@ -8,6 +8,7 @@
 #include <malloc.h>
 
 #include "app/commands.h"
+#include "app/weld.h"
 
 namespace {
 
@@ -102,7 +103,10 @@ int main(int argc, char** argv) {
     mallopt(M_MMAP_THRESHOLD, 1 << 20); // large arrays go back to the system when they are freed, at once
     try {
         endCleanlyOnInterrupt();
-        return run(argc, argv);
+        std::vector<std::string> words = app::withDefaultDistances(argc, argv);
+        std::vector<char*> pointers;
+        for (std::string& word : words) pointers.push_back(word.data());
+        return run(argc, pointers.data());
     } catch (const Error& error) {
         return fault(error.failure, error.what());
     } catch (const std::bad_alloc&) {

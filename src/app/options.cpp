@@ -1,8 +1,10 @@
 #include "app/options.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
+
+#include "app/units.h"
+#include "app/weld.h"
 
 namespace relief::app {
 namespace {
@@ -18,27 +20,6 @@ CLI::Validator numberIn(double lowest, double highest) {
         const bool isNumber = CLI::detail::lexical_cast(word, value);
         if (isNumber && value >= lowest && value <= highest) return std::string();
         return fmt::format("{} is not a number in {}..{}", word, lowest, highest);
-    };
-    return {check, ""};
-}
-
-/// Bytes of "512M", "1.5G" or "4000000", decimal as humanBytes prints them; nothing where the word is no such size.
-std::optional<std::uint64_t> bytesOf(const std::string& word) {
-    double number = 0;
-    const char* end = word.data() + word.size();
-    const auto [unit, error] = std::from_chars(word.data(), end, number);
-    if (error != std::errc()) return {};
-    const std::map<std::string, double> units{{"", 1}, {"K", 1e3}, {"M", 1e6}, {"G", 1e9}, {"T", 1e12}};
-    const auto found = units.find(std::string(unit, end));
-    if (found == units.end()) return {};
-    const double bytes = number * found->second;
-    if (!(bytes >= 1e6 && bytes <= 1e12)) return {};
-    return std::uint64_t(bytes);
-}
-
-CLI::Validator sizeInBytes() {
-    const auto check = [](const std::string& word) {
-        return bytesOf(word) ? std::string() : fmt::format("{} is not a size in 1M..1T, such as 512M or 2G", word);
     };
     return {check, ""};
 }
@@ -149,6 +130,7 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     listed(app.add_option("--isolation", args.isolation, "levels of refinement around features, 0..10 (6)")
                ->check(CLI::Range(0, 10)),
            "N", "surface");
+    addWeld(app, args.weld);
     const char* group = "height";
     listed(app.add_option("--height", args.height, "height map: .exr .tif .png .hdr"), "MAP", group);
     listed(app.add_option("--scale", args.scale, "cage units for one unit of stored height (1)")->check(anyNumber()),
@@ -357,13 +339,16 @@ std::unique_ptr<Poser> stretchHeights(Device& device, Model& model, const Loaded
     return poser;
 }
 
-Loaded load(const SurfaceArgs& args, const Output& output) {
+Loaded load(const SurfaceArgs& args, const Output& output, const std::string& albedo) {
     Loaded loaded;
     const double start = secondsNow();
     loaded.cage = readCage(args.cage, output.warn());
     loaded.animation = animationOf(args.pose, loaded.cage, output);
-    takePose(loaded, args.pose, args.cage);
+    weldLoaded(loaded, args.weld);
+    checkTexCoords(loaded.cage, {args.height, albedo}, output.warn());
     const bool isDense = args.scheme == "none" || (args.scheme.empty() && loaded.cage.isAllTriangles());
+    if (!isDense && args.weld.empty()) warnOfCoincidence(loaded.cage, args.cage, output.warn());
+    takePose(loaded, args.pose, args.cage);
     if (isDense && !args.height.empty())
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "

@@ -33,6 +33,7 @@ struct SurfaceArgs {
     std::string cage;
     std::string scheme; ///< "": catmark, or none for a mesh of triangles
     int isolation = 6;
+    std::string weld; ///< distance; "": vertices stay as they are
     std::string height;
     std::optional<double> scale, mid;
     int channel = 0;
@@ -120,8 +121,9 @@ struct Loaded {
 };
 /// What moves the cage, or null.
 std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output);
-/// The cage is in the pose of PoseArgs::time, unless it stays at rest.
-Loaded load(const SurfaceArgs& args, const Output& output);
+/// The cage is in the pose of PoseArgs::time, unless it stays at rest. `albedo`: a map besides that of the heights
+/// that needs texture coordinates.
+Loaded load(const SurfaceArgs& args, const Output& output, const std::string& albedo = "");
 /// Points for framing: a coarse reference is enough.
 std::vector<dvec3> outlineOf(const Loaded& loaded);
 /// Heights that stretch with a posed cage are the device's to make: null where heights are absolute or the cage at

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/weld.h"
 
 namespace relief::app {
 namespace {
@@ -73,7 +74,8 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     // A driver takes its time to load: it does so while files are read.
     std::future<std::unique_ptr<Device>> opening = std::async(
         std::launch::async, [&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
-    Loaded loaded = load(args.surface, args.output);
+    Loaded loaded = load(args.surface, args.output, args.picture.albedo);
+    warnOfPlainTags(loaded, args.surface, args.output.warn());
     progress.advance();
     Shading shading = loadShading(args.picture);
     const std::vector<dvec3> points = outlineOf(loaded);

@@ -26,9 +26,10 @@ struct Cage {
     std::vector<std::uint32_t> faceSizes; ///< corners a face, each >= 3
     std::vector<std::uint32_t> corners;   ///< position index, all faces in a row: sum(faceSizes) entries
 
-    std::vector<vec2> texCoords;              ///< face-varying values (s,t), t up; empty when the cage has none
-    std::vector<std::uint32_t> texCorners;    ///< texCoords index for each corner, or empty
-    std::vector<vec3> normals;                ///< only for dense meshes; subdivision ignores them
+    std::vector<vec2> texCoords;           ///< face-varying values (s,t), t up; empty when the cage has none
+    std::vector<std::uint32_t> texCorners; ///< texCoords index for each corner, or empty
+    std::string missingTexCoords; ///< why there are none although some faces name them, for maps that need them; or ""
+    std::vector<vec3> normals;    ///< only for dense meshes; subdivision ignores them
     std::vector<std::uint32_t> normalCorners; ///< normals index for each corner, or empty
 
     std::vector<std::uint32_t> creaseEdges;   ///< pairs of position indices; every pair is an edge of some face
@@ -62,8 +63,9 @@ struct Cage {
 Cage readCage(const std::string& path, const Warn& warn = warnOnStderr);
 
 /// The same from text in memory; `name` stands for the file in messages.
-/// Tags count vertices and faces from 0 through the whole file, whatever object they stand in. Either all faces have
-/// texture coordinates or none has; normals that only some faces have are dropped with a warning.
+/// Tags count vertices and faces from 0 through the whole file, whatever object they stand in. Degenerate faces (fewer
+/// than 3 corners, a vertex used twice), corners that repeat the one before and normals that some faces lack are
+/// dropped with a warning, texture coordinates that some faces lack without one (Cage::missingTexCoords).
 Cage parseObj(const std::string& text, const std::string& name, const Warn& warn = warnOnStderr);
 
 /// Writes positions, texture coordinates, faces, tags and parts as OBJ, whole or not at all.
@@ -73,6 +75,22 @@ void writeObj(const std::string& path, const Cage& cage);
 /// crease names no edge, a sharpness is negative or array sizes disagree. Every loader calls it; code that builds cages
 /// may.
 void validateCage(const Cage& cage, const std::string& name);
+
+/// A cage whose coincident vertices are joined.
+struct WeldedCage {
+    Cage cage;
+    std::vector<std::uint32_t> sources; ///< for each of its vertices the one of the original cage that it was
+};
+
+/// Joins vertices on boundaries (ends of edges that one face has alone) that are at most `distance` cage units apart
+/// with the one of the lowest index among them; 0 joins what is at the very same place. Others are not joined: solids
+/// that meet stay separate. Face-varying values and tags follow: texture coordinates that are equal there become one,
+/// of creases and sharp vertices that come together the sharpest holds. Corners that would repeat a vertex and faces
+/// that degenerate are removed, and so are holes and creases of those. Throws Failure::usage for a distance below 0.
+WeldedCage weld(Cage cage, double distance);
+
+/// How many vertices weld(cage, 0) removes.
+std::uint64_t countCoincidentVertices(const Cage& cage);
 
 /// What `relief info` prints of a cage.
 struct CageSummary {
@@ -108,6 +126,10 @@ struct DenseMesh {
 /// differ; normals that the file lacks are the area-weighted sum of the faces around a vertex.
 DenseMesh denseMesh(const Cage& cage);
 
+/// Vertices at one position become one, with the sum of their normals and without texture coordinates, which differ
+/// there. Triangles that lose a corner so are removed: a closed surface stays closed.
+DenseMesh weldPositions(const DenseMesh& mesh);
+
 /// Throws Failure::usage unless the extension of `path` is one that writeMesh knows: .ply, .obj or .glb.
 void checkMeshPath(const std::string& path);
 
@@ -116,8 +138,8 @@ void checkMeshPath(const std::string& path);
 void checkMeshSize(const std::string& path, std::uint64_t vertexCount, std::uint64_t triangleCount, bool hasTexCoords);
 
 /// Writes by the extension of `path`, whole or not at all, through a buffer of 1 MiB: binary .ply, .obj that reads back
-/// to the same bits, or .glb (glTF 2.0: t turned to run down). .obj and .glb leave out triangles that name a vertex
-/// twice, which their readers refuse.
+/// to the same bits and has each position once, or .glb (glTF 2.0: t turned to run down). .obj and .glb leave out
+/// triangles that name a vertex (.obj: a position) twice, which their readers refuse.
 /// Throws as the two checks above, Failure::input for a mesh without triangles, arrays that disagree, indices out of
 /// range and numbers that are not finite, Failure::file when writing fails.
 void writeMesh(const std::string& path, const DenseMesh& mesh, ShowProgress show = ShowProgress::never);

@@ -1,8 +1,10 @@
-// OBJ: numbers in the fewest digits that read back to the same bits.
+// OBJ: numbers in the fewest digits that read back to the same bits. A corner names position, texture coordinates and
+// normal each by its own number, so that vertices which differ in the latter share their position.
 #include <array>
 #include <charconv>
 
 #include "cage/dense_write.h"
+#include "cage/places.h"
 
 namespace relief {
 
@@ -30,36 +32,50 @@ private:
     char* end_ = line_.data();
 };
 
-template <typename Vector>
-void putValues(ObjLines& lines, std::string_view keyword, const std::vector<Vector>& values, Progress& progress) {
-    putEach(values.size(), progress, [&](std::size_t i) {
+template <typename ValueOf>
+void putValues(ObjLines& lines, std::string_view keyword, std::size_t count, const ValueOf& valueOf,
+               Progress& progress) {
+    putEach(count, progress, [&](std::size_t i) {
+        const auto value = valueOf(i);
         lines.word(keyword);
-        for (int k = 0; k < Vector::length(); ++k) {
+        for (int k = 0; k < value.length(); ++k) {
             lines.word(" ");
-            lines.number(values[i][k]);
+            lines.number(value[k]);
         }
         lines.endLine();
     });
 }
 
+/// It has two corners at one place.
+bool isDegenerate(const DenseMesh& mesh, const Places& places, std::size_t triangle) {
+    const auto place = [&](std::size_t k) { return places.ofPoints[mesh.indices[3 * triangle + k]]; };
+    return place(0) == place(1) || place(1) == place(2) || place(2) == place(0);
+}
+
 } // namespace
 
 void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
-    soundTriangleCount(mesh, file.path()); // throws where nothing would be left
     const std::size_t triangleCount = mesh.indices.size() / 3;
-    Progress progress("writing", mesh.positions.size() + mesh.texCoords.size() + mesh.normals.size() + triangleCount,
-                      show);
+    const Places places = findPlaces(mesh.positions);
+    std::size_t soundCount = 0;
+    for (std::size_t i = 0; i < triangleCount; ++i) soundCount += isDegenerate(mesh, places, i) ? 0 : 1;
+    if (soundCount == 0)
+        fail(Failure::input, "{}: not written: every triangle of the mesh names a position twice", file.path());
+    Progress progress("writing", places.count() + mesh.texCoords.size() + mesh.normals.size() + triangleCount, show);
     ObjLines lines(file);
-    putValues(lines, "v", mesh.positions, progress);
-    putValues(lines, "vt", mesh.texCoords, progress);
-    putValues(lines, "vn", mesh.normals, progress);
+    putValues(
+        lines, "v", places.count(), [&](std::size_t i) { return mesh.positions[places.firsts[i]]; }, progress);
+    putValues(
+        lines, "vt", mesh.texCoords.size(), [&](std::size_t i) { return mesh.texCoords[i]; }, progress);
+    putValues(
+        lines, "vn", mesh.normals.size(), [&](std::size_t i) { return mesh.normals[i]; }, progress);
     putEach(triangleCount, progress, [&](std::size_t triangle) {
-        if (isDegenerate(mesh, triangle)) return;
+        if (isDegenerate(mesh, places, triangle)) return;
         lines.word("f");
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t index = mesh.indices[3 * triangle + k] + 1;
             lines.word(" ");
-            lines.number(index);
+            lines.number(places.ofPoints[index - 1] + 1);
             lines.word("/");
             if (!mesh.texCoords.empty()) lines.number(index);
             lines.word("/");

@@ -20,12 +20,15 @@ struct ObjScan {
     std::string text; ///< only v, vt, vn, f, o, g and usemtl; one statement a line, comments and continuations gone
     std::vector<ObjTag> tags;
     std::size_t vertexCount = 0, texCoordCount = 0, normalCount = 0, faceCount = 0, cornerCount = 0;
-    bool hasTexCoords = false; ///< all faces name texture coordinates
-    bool hasNormals = false;   ///< all faces name normals
+    bool hasTexCoords = false;    ///< all faces name texture coordinates
+    bool hasNormals = false;      ///< all faces name normals
+    std::string missingTexCoords; ///< as Cage::missingTexCoords
 };
 
-/// Throws Failure::input, naming the line, for numbers that are not finite numbers, indices out of range, faces with
-/// fewer than 3 corners or a vertex used twice, and texture coordinates on some faces only.
+/// Throws Failure::input, naming the line, for numbers that are not finite numbers, indices of vertices and texture
+/// coordinates out of range, lines of more than 16 MB and files in which all faces are degenerate. Warns once each, of
+/// the first on its line, of degenerate faces, of repeated corners (both still in the text) and of normals that are
+/// missing.
 ObjScan scanObj(std::string_view text, const std::string& name, const Warn& warn);
 
 /// Adds creases, corners, holes and rules to the cage. Throws Failure::input, naming the line, for wrong sizes, indices

@@ -2,6 +2,7 @@
 
 #include <tiny_obj_loader.h>
 
+#include "cage/faces.h"
 #include "cage/obj.h"
 
 namespace relief {
@@ -89,6 +90,8 @@ Cage parseObj(const std::string& text, const std::string& name, const Warn& warn
     ObjScan scan = scanObj(text, name, warn);
     Cage cage = buildArrays(scan, name);
     applyObjTags(scan.tags, cage, name, warn);
+    removeDegenerateFaces(cage); // tags count them
+    cage.missingTexCoords = scan.missingTexCoords;
     validateCage(cage, name);
     return cage;
 }

@@ -11,6 +11,8 @@
 #include <set>
 #include <span>
 
+#include "cage/faces.h"
+
 namespace relief {
 
 namespace {
@@ -19,6 +21,7 @@ using Words = std::vector<std::string_view>;
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 constexpr std::size_t kMaxCorners = std::numeric_limits<int>::max();
+constexpr std::size_t kMaxLineBytes = 16'000'000; ///< the words of a line take up to eight times as much
 
 bool isSpace(char letter) { return letter == ' ' || letter == '\t' || letter == '\v' || letter == '\f'; }
 
@@ -62,7 +65,13 @@ constexpr std::array kKindNames = {"vertex", "texture coordinate", "normal"};
 struct Values {
     std::size_t count = 0;
     std::size_t largestIndex = 0, largestIndexLine = 0;  ///< faces may come before their vertices: compared at the end
-    std::size_t firstLineWith = 0, firstLineWithout = 0; ///< faces; 0 when there is none
+    std::size_t firstLineWith = 0, firstLineWithout = 0; ///< faces where some corner has or lacks one; 0: there is none
+};
+
+/// Faces with the same fault.
+struct FaultyFaces {
+    std::size_t count = 0, first = 0, firstLine = 0; ///< faces count from 0
+    std::size_t vertex = 0;                          ///< from 1, of the first
 };
 
 class ObjScanner {
@@ -76,14 +85,18 @@ private:
     void scanFace();
     void scanCorner(std::string_view corner, std::array<bool, kindCount>& has);
     std::size_t resolveIndex(Kind kind, std::string_view word);
-    void checkNoTwins();
+    void noteFault(FaultyFaces& faces);
     void notePresence(Kind kind, std::size_t cornersWith);
+    [[nodiscard]] const char* slashHint(Kind kind) const;
+    void checkLength(std::size_t length) const;
     void scanTag();
     [[nodiscard]] std::array<std::size_t, 3> scanTagSizes(std::string_view sizes) const;
     float scanFloat(std::string_view word) const;
     void splitWords(std::string_view rest);
     void keepWords(std::string_view keyword);
     void warnOnce(std::string_view keyword);
+    void finishNormals();
+    void finishFaces();
     void finish();
 
     template <typename... Args>
@@ -96,8 +109,10 @@ private:
     ObjScan result_;
     std::size_t line_ = 0;
     std::array<Values, kindCount> values_;
-    Words words_;                           ///< of the line, without keyword and comment
-    std::vector<std::size_t> faceVertices_; ///< of the face at hand, from 0
+    Words words_;                                            ///< of the line, without keyword and comment
+    std::vector<std::uint32_t> faceVertices_, soundCorners_; ///< of the face at hand, from 0
+    FaultyFaces repeating_, degenerate_;
+    std::string lostNormal_; ///< what is wrong with the first one that is before all others; empty when none is
     std::set<std::string, std::less<>> warnedOf_;
 };
 
@@ -110,8 +125,10 @@ ObjScan ObjScanner::scan(std::string_view text) {
         std::string_view line = takeLine(text);
         if (isContinued(line)) {
             joined.clear();
-            for (; line.ends_with('\\') && !text.empty(); line = takeLine(text), ++nextLine)
+            for (; line.ends_with('\\') && !text.empty(); line = takeLine(text), ++nextLine) {
                 joined.append(line.substr(0, line.size() - 1)).push_back(' ');
+                checkLength(joined.size());
+            }
             joined.append(line.substr(0, line.find_last_not_of('\\') + 1));
             line = joined;
         }
@@ -123,6 +140,7 @@ ObjScan ObjScanner::scan(std::string_view text) {
 
 void ObjScanner::scanLine(std::string_view line) {
     if (line.empty() || line[0] == '#') return;
+    checkLength(line.size());
     if (line.find('\0') != std::string_view::npos)
         failHere("there is a zero byte in this line; save the file as plain UTF-8 text");
     const std::string_view keyword = firstWord(line);
@@ -159,7 +177,7 @@ void ObjScanner::scanNumbers(Kind kind) {
 }
 
 void ObjScanner::scanFace() {
-    if (words_.size() < 3) failHere("this face has {} corners; a face needs 3 or more", words_.size());
+    if (words_.empty()) failHere("this face has no corners; a face needs 3 or more");
     faceVertices_.clear();
     std::array<std::size_t, kindCount> cornersWith{};
     for (const std::string_view word : words_) {
@@ -167,9 +185,14 @@ void ObjScanner::scanFace() {
         scanCorner(word, has);
         for (int kind = 0; kind < kindCount; ++kind) cornersWith[kind] += has[kind] ? 1 : 0;
     }
-    checkNoTwins();
-    notePresence(texCoord, cornersWith[texCoord]);
-    notePresence(normal, cornersWith[normal]);
+    findSoundCorners(faceVertices_, soundCorners_);
+    if (soundCorners_.empty()) {
+        noteFault(degenerate_);
+    } else {
+        if (soundCorners_.size() < words_.size()) noteFault(repeating_);
+        notePresence(texCoord, cornersWith[texCoord]);
+        notePresence(normal, cornersWith[normal]);
+    }
     ++result_.faceCount;
     result_.cornerCount += words_.size();
     if (result_.cornerCount > kMaxCorners) failHere("more than {} corners in all faces", kMaxCorners);
@@ -183,7 +206,7 @@ void ObjScanner::scanCorner(std::string_view corner, std::array<bool, kindCount>
         has[kind] = !field.empty() || kind == position;
         if (has[kind]) {
             const std::size_t index = resolveIndex(Kind(kind), field);
-            if (kind == position) faceVertices_.push_back(index);
+            if (kind == position) faceVertices_.push_back(std::uint32_t(index));
         }
         if (field.size() == rest.size()) return;
         rest.remove_prefix(field.size() + 1);
@@ -199,10 +222,13 @@ std::size_t ObjScanner::resolveIndex(Kind kind, std::string_view word) {
     if (*index == 0) failHere("{} index 0 does not exist; a face's indices count from 1", kKindNames[kind]);
     if (*index < 0) {
         const std::size_t back = std::size_t(-std::int64_t(*index));
-        if (back > values.count)
-            failHere("{} index {} reaches before the first; {} are defined above this line", kKindNames[kind], *index,
-                     values.count);
-        return values.count - back;
+        if (back <= values.count) return values.count - back;
+        if (kind != normal)
+            failHere("{} index {} reaches before the first; {} are defined above this line{}", kKindNames[kind], *index,
+                     values.count, slashHint(kind));
+        if (lostNormal_.empty())
+            lostNormal_ = fmt::format("{}:{}: normal index {} reaches before the first", name_, line_, *index);
+        return 0;
     }
     if (std::size_t(*index) > values.largestIndex) {
         values.largestIndex = std::size_t(*index);
@@ -211,26 +237,31 @@ std::size_t ObjScanner::resolveIndex(Kind kind, std::string_view word) {
     return std::size_t(*index) - 1;
 }
 
-void ObjScanner::checkNoTwins() {
-    std::sort(faceVertices_.begin(), faceVertices_.end());
-    const auto twin = std::adjacent_find(faceVertices_.begin(), faceVertices_.end());
-    if (twin != faceVertices_.end())
-        failHere("this face uses vertex {} twice; each corner needs a vertex of its own", *twin + 1);
+void ObjScanner::noteFault(FaultyFaces& faces) {
+    if (faces.count++ != 0) return;
+    faces.first = result_.faceCount;
+    faces.firstLine = line_;
+    std::ranges::sort(faceVertices_);
+    const auto twin = std::ranges::adjacent_find(faceVertices_);
+    faces.vertex = twin == faceVertices_.end() ? 0 : *twin + 1;
 }
 
 void ObjScanner::notePresence(Kind kind, std::size_t cornersWith) {
     Values& values = values_[kind];
-    if (cornersWith != 0 && cornersWith != words_.size())
-        failHere("{} of this face's {} corners have a {}; give one to all or to none", cornersWith, words_.size(),
-                 kKindNames[kind]);
-    std::size_t& first = cornersWith == 0 ? values.firstLineWithout : values.firstLineWith;
-    if (first == 0) first = line_;
-    if (kind != texCoord || values.firstLineWith == 0 || values.firstLineWithout == 0) return;
-    if (cornersWith == 0)
-        failHere("this face has no texture coordinates but the face of line {} has; give them to all faces or to none",
-                 values.firstLineWith);
-    failHere("this face has texture coordinates but the face of line {} has none; give them to all faces or to none",
-             values.firstLineWithout);
+    if (cornersWith > 0 && values.firstLineWith == 0) values.firstLineWith = line_;
+    if (cornersWith < words_.size() && values.firstLineWithout == 0) values.firstLineWithout = line_;
+}
+
+/// For a texture coordinate that does not exist, in a file whose normals no face names.
+const char* ObjScanner::slashHint(Kind kind) const {
+    const bool isLikely = kind == texCoord && values_[normal].count > 0 && values_[normal].firstLineWith == 0;
+    return isLikely ? "; if it counts normals, write v//vn" : "";
+}
+
+void ObjScanner::checkLength(std::size_t length) const {
+    if (length > kMaxLineBytes)
+        failHere("this line has more than {}, the most that is read of one; is this an OBJ file?",
+                 humanBytes(kMaxLineBytes));
 }
 
 /// `t name ints/floats/strings`, then as many words of each type.
@@ -295,22 +326,55 @@ void ObjScanner::warnOnce(std::string_view keyword) {
         warn_(fmt::format("{}:{}: lines {} are not read", name_, line_, inQuotes(keyword)));
 }
 
-void ObjScanner::finish() {
-    for (int kind = 0; kind < kindCount; ++kind) {
-        const Values& values = values_[kind];
-        if (values.largestIndex > values.count)
-            failAtLine(name_, values.largestIndexLine, "{} index {} does not exist; there are {}", kKindNames[kind],
-                       values.largestIndex, values.count);
-    }
+/// Subdivision needs no normals: faulty ones are no reason to refuse a cage.
+void ObjScanner::finishNormals() {
     const Values& normals = values_[normal];
-    if (normals.firstLineWith != 0 && normals.firstLineWithout != 0)
+    if (lostNormal_.empty() && normals.largestIndex > normals.count)
+        lostNormal_ = fmt::format("{}:{}: normal index {} does not exist, there are {}", name_,
+                                  normals.largestIndexLine, normals.largestIndex, normals.count);
+    if (!lostNormal_.empty())
+        warn_(lostNormal_ + "; all normals are dropped");
+    else if (normals.firstLineWith != 0 && normals.firstLineWithout != 0)
         warn_(fmt::format("{}:{}: this face has no normals but others have; all normals are dropped", name_,
                           normals.firstLineWithout));
-    result_.vertexCount = values_[position].count;
-    result_.texCoordCount = values_[texCoord].count;
     result_.normalCount = normals.count;
-    result_.hasTexCoords = values_[texCoord].firstLineWith != 0;
-    result_.hasNormals = normals.firstLineWith != 0 && normals.firstLineWithout == 0;
+    result_.hasNormals = normals.firstLineWith != 0 && normals.firstLineWithout == 0 && lostNormal_.empty();
+}
+
+void ObjScanner::finishFaces() {
+    const FaultyFaces &lost = degenerate_, &repeating = repeating_;
+    if (lost.count > 0) {
+        const std::string fault =
+            lost.vertex == 0 ? "has fewer than 3 corners" : fmt::format("uses vertex {} twice", lost.vertex);
+        if (lost.count == result_.faceCount) // nothing is left
+            failAtLine(name_, lost.firstLine, "this face {}, and all {} faces are degenerate; a face needs 3 vertices",
+                       fault, lost.count);
+        warn_(fmt::format("{}:{}: face {} (from 0) {}: degenerate faces are dropped, {} in all", name_, lost.firstLine,
+                          lost.first, fault, lost.count));
+    }
+    if (repeating.count > 0)
+        warn_(fmt::format("{}:{}: face {} (from 0) names vertex {} twice in a row: repeated corners are dropped, of {} "
+                          "faces in all",
+                          name_, repeating.firstLine, repeating.first, repeating.vertex, repeating.count));
+}
+
+void ObjScanner::finish() {
+    for (const Kind kind : {position, texCoord}) {
+        const Values& values = values_[kind];
+        if (values.largestIndex > values.count)
+            failAtLine(name_, values.largestIndexLine, "{} index {} does not exist; there are {}{}", kKindNames[kind],
+                       values.largestIndex, values.count, slashHint(kind));
+    }
+    finishFaces();
+    finishNormals();
+    const Values& texCoords = values_[texCoord];
+    if (texCoords.firstLineWith != 0 && texCoords.firstLineWithout != 0)
+        result_.missingTexCoords =
+            fmt::format("{}:{}: this face has no texture coordinates at some corner, others have", name_,
+                        texCoords.firstLineWithout);
+    result_.vertexCount = values_[position].count;
+    result_.texCoordCount = texCoords.count;
+    result_.hasTexCoords = texCoords.firstLineWith != 0 && texCoords.firstLineWithout == 0;
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "cage/edges.h"
 #include "cage/obj.h"
@@ -21,6 +22,8 @@ public:
 
 private:
     void readCrease(const ObjTag& tag);
+    void addCrease(std::uint32_t a, std::uint32_t b, float sharpness);
+    void findPlaces();
     void readCorner(const ObjTag& tag);
     void readHole(const ObjTag& tag);
     void readBoundaryRule(const ObjTag& tag);
@@ -51,7 +54,11 @@ private:
     Cage& cage_;
     const std::string& name_;
     const Warn& warn_;
-    std::vector<EdgeUse> edges_;                    ///< filled at the first crease
+    std::vector<EdgeUse> edges_; ///< filled at the first crease
+    /// Vertices that files repeat along seams: a crease may name the two ends of an edge in different faces. The first
+    /// vertex at each one's place, and edges by those of their ends; filled at the first crease that needs them.
+    std::vector<std::uint32_t> places_;
+    std::multimap<std::uint64_t, std::uint64_t> edgesAtPlace_;
     std::map<std::uint64_t, std::size_t> creaseOf_; ///< edge key -> index of its crease
     std::map<std::uint32_t, std::size_t> sharpOf_;  ///< vertex -> index of its sharpness
     std::map<std::string, std::size_t> lineOf_;     ///< of the rules set so far
@@ -70,9 +77,18 @@ void TagReader::readCrease(const ObjTag& tag) {
     if (edges_.empty()) edges_ = sortedEdgeUses(cage_);
     const std::uint32_t a = checkIndex(tag, tag.ints[0], cage_.positions.size(), "vertex");
     const std::uint32_t b = checkIndex(tag, tag.ints[1], cage_.positions.size(), "vertex");
-    if (!hasEdge(edges_, a, b))
-        failAtLine(name_, tag.line, "no face has an edge between vertices {} and {} (counted from 0)", a, b);
     const float sharpness = checkSharpness(tag, tag.floats[0]);
+    if (hasEdge(edges_, a, b)) return addCrease(a, b, sharpness);
+    if (edgesAtPlace_.empty()) findPlaces();
+    const auto [first, end] = edgesAtPlace_.equal_range(edgeKey(places_[a], places_[b]));
+    if (first == end)
+        failAtLine(name_, tag.line, "no face has an edge between vertices {} and {} (counted from 0)", a, b);
+    for (auto edge = first; edge != end; ++edge)
+        addCrease(std::uint32_t(edge->second >> 32), std::uint32_t(edge->second), sharpness);
+}
+
+/// The last sharpness of an edge holds.
+void TagReader::addCrease(std::uint32_t a, std::uint32_t b, float sharpness) {
     const auto [crease, isNew] = creaseOf_.try_emplace(edgeKey(a, b), cage_.creaseSharpness.size());
     if (!isNew) {
         cage_.creaseSharpness[crease->second] = sharpness;
@@ -80,6 +96,17 @@ void TagReader::readCrease(const ObjTag& tag) {
     }
     cage_.creaseEdges.insert(cage_.creaseEdges.end(), {a, b});
     cage_.creaseSharpness.push_back(sharpness);
+}
+
+void TagReader::findPlaces() {
+    std::map<std::tuple<float, float, float>, std::uint32_t> firsts;
+    for (const auto& p : cage_.positions)
+        places_.push_back(firsts.try_emplace({p.x, p.y, p.z}, std::uint32_t(places_.size())).first->second);
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+        const std::uint64_t key = edges_[i].key;
+        if (i > 0 && edges_[i - 1].key == key) continue;
+        edgesAtPlace_.emplace(edgeKey(places_[key >> 32], places_[std::uint32_t(key)]), key);
+    }
 }
 
 void TagReader::readCorner(const ObjTag& tag) {

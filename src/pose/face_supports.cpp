@@ -16,11 +16,12 @@ bool hasBoundary(const Patch& patch) { return (patch.param1 >> 7 & 31) != 0; }
 /// Collects the cage points that move one face after another, each once.
 class SupportBuilder {
 public:
-    explicit SupportBuilder(const Surface& surface) : surface_(surface), seenBy_(surface.controlPointCount, kNoPatch) {
+    explicit SupportBuilder(const Surface& surface)
+        : surface_(surface), seenBy_(surface.controlPointCount + surface.stencils.sharedRowCount, kNoPatch) {
         for (std::size_t row = 0; row < surface.stencils.rowCount(); ++row) {
             float sum = 0;
             for (std::uint32_t k = surface.stencils.offsets[row]; k < surface.stencils.offsets[row + 1]; ++k)
-                sum += std::abs(surface.stencils.weights[k]);
+                sum += std::abs(surface.stencils.weights[k]) * spreadOf(surface.stencils.indices[k]);
             rowSpreads_.push_back(sum);
         }
     }
@@ -38,23 +39,26 @@ public:
     }
 
 private:
+    [[nodiscard]] float spreadOf(std::uint32_t point) const {
+        return point < surface_.controlPointCount ? 1 : rowSpreads_[point - surface_.controlPointCount];
+    }
+
+    /// Returns the point's spread.
     float addPoint(std::uint32_t point, std::uint32_t face, std::vector<std::uint32_t>& points) {
+        const bool isKept = point < seenBy_.size(); // a point of the cage or a shared one
+        if (isKept && std::exchange(seenBy_[point], face) == face) return spreadOf(point);
         if (point < surface_.controlPointCount) {
-            add(point, face, points);
+            points.push_back(point);
             return 1;
         }
         const std::uint32_t row = point - surface_.controlPointCount;
         for (std::uint32_t k = surface_.stencils.offsets[row]; k < surface_.stencils.offsets[row + 1]; ++k)
-            add(surface_.stencils.indices[k], face, points);
+            addPoint(surface_.stencils.indices[k], face, points);
         return rowSpreads_[row];
     }
 
-    void add(std::uint32_t point, std::uint32_t face, std::vector<std::uint32_t>& points) {
-        if (std::exchange(seenBy_[point], face) != face) points.push_back(point);
-    }
-
     const Surface& surface_;
-    std::vector<std::uint32_t> seenBy_; ///< the latest face that has each cage point
+    std::vector<std::uint32_t> seenBy_; ///< the latest face that has each point of the cage and each shared one
     std::vector<float> rowSpreads_;
 };
 

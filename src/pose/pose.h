@@ -20,11 +20,13 @@ struct StencilClass {
 
 /// The rows of Stencils in blocks (shared/pose.h).
 struct StencilBlocks {
-    std::vector<StencilClass> classes;
+    std::vector<StencilClass> classes;  ///< of all blocks but those of shared rows
     std::vector<std::uint32_t> firsts;  ///< first entry of each block, one more at the end
     std::vector<std::uint32_t> targets; ///< rows, kBlockRows a block; kNoPatch past the last one
-    std::vector<std::uint32_t> entries; ///< cage points; those that fill up an eight repeat the block's first
+    std::vector<std::uint32_t> entries; ///< points; those that fill up an eight repeat the block's first
     std::vector<float> weights;         ///< kBlockRows an entry
+    /// The first blocks, of shared rows and in no class: the others may need what they make.
+    std::uint32_t sharedBlockCount = 0;
 
     [[nodiscard]] std::size_t blockCount() const { return firsts.empty() ? 0 : firsts.size() - 1; }
 };

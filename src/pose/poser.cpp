@@ -37,6 +37,7 @@ struct Poser::Parts {
         Pipeline pipeline;
         std::uint32_t firstBlock = 0, endBlock = 0, firstEntry = 0,
                       entryCount = 0; ///< entryCount 0: any number a block
+        bool isShared = false;        ///< later passes read what it makes
     };
     std::vector<PointsPass> passes;
     BindingSet sets[2]; ///< with each upload
@@ -125,7 +126,11 @@ void Poser::Parts::uploadRig() {
 
 void Poser::Parts::makePasses(const StencilBlocks& blocks) {
     cagePipeline = makePosePipeline(device, "pose_cage.comp", {});
-    std::uint32_t block = 0;
+    std::uint32_t block = blocks.sharedBlockCount;
+    if (block > 0) {
+        addPass(0, blocks, 0, block);
+        passes.back().isShared = true;
+    }
     if (device.traits().smallGroup == kLanes)
         for (const StencilClass& c : blocks.classes) {
             if (c.entryCount > kStraightEntries) break;
@@ -184,7 +189,10 @@ void Poser::Parts::evaluate(std::span<const float> floats, std::uint32_t firstPo
         relief::push(commands, cagePipeline, std::as_bytes(std::span(&push, 1)));
         vkCmdDispatch(commands, (push.pointCount + kCageGroup - 1) / kCageGroup, 1, 1);
         barrier(commands);
-        for (const PointsPass& pass : passes) runPass(commands, pass, sets[upload]);
+        for (const PointsPass& pass : passes) {
+            runPass(commands, pass, sets[upload]);
+            if (pass.isShared) barrier(commands);
+        }
         barrier(commands);
     });
     stats.uploadedBytes = floats.size_bytes();

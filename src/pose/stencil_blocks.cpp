@@ -12,11 +12,12 @@ std::span<const std::uint32_t> pointsOf(const Stencils& stencils, std::uint32_t 
         .subspan(stencils.offsets[row], stencils.offsets[row + 1] - stencils.offsets[row]);
 }
 
-/// Rows by their cage points, each row's in rising order: neighbours have most of them in common.
-std::vector<std::uint32_t> rowsByPoints(const Stencils& stencils) {
+/// Rows from `firstRow` to before `endRow` by their points, each row's in rising order: neighbours have most of them in
+/// common.
+std::vector<std::uint32_t> rowsByPoints(const Stencils& stencils, std::uint32_t firstRow, std::uint32_t endRow) {
     std::vector<std::uint32_t> sorted = stencils.indices;
-    std::vector<std::uint32_t> rows(stencils.rowCount());
-    std::iota(rows.begin(), rows.end(), 0u);
+    std::vector<std::uint32_t> rows(endRow - firstRow);
+    std::iota(rows.begin(), rows.end(), firstRow);
     const auto range = [&](std::uint32_t row) {
         return std::pair(sorted.begin() + stencils.offsets[row], sorted.begin() + stencils.offsets[row + 1]);
     };
@@ -33,19 +34,19 @@ std::uint32_t roundedUp(std::size_t count) {
     return std::uint32_t((count + kEntriesTogether - 1) / kEntriesTogether * kEntriesTogether);
 }
 
-/// Rows that make a block, and the cage points that they use.
+/// Rows that make a block, and the points that they use.
 struct Draft {
     std::vector<std::uint32_t> rows, points;
 };
 
 /// Splits rows in order into blocks. A row that would need more points than suits the block begins the next one.
-std::vector<Draft> drafts(const Stencils& stencils) {
+std::vector<Draft> drafts(const Stencils& stencils, std::uint32_t firstRow, std::uint32_t endRow) {
     constexpr std::uint32_t kUsualEntries = 24;
     std::vector<Draft> all;
-    std::vector<std::size_t> latest; ///< the draft that has each cage point
+    std::vector<std::size_t> latest; ///< the draft that has each point
     const auto isIn = [&](std::uint32_t point) { return latest[point] == all.size(); };
     latest.resize(1 + (stencils.indices.empty() ? 0 : *std::ranges::max_element(stencils.indices)), 0);
-    for (const std::uint32_t row : rowsByPoints(stencils)) {
+    for (const std::uint32_t row : rowsByPoints(stencils, firstRow, endRow)) {
         const std::span<const std::uint32_t> points = pointsOf(stencils, row);
         if (!all.empty()) {
             const auto more = std::size_t(std::ranges::count_if(points, [&](std::uint32_t p) { return !isIn(p); }));
@@ -89,10 +90,13 @@ void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uin
 StencilBlocks stencilBlocks(const Stencils& stencils) {
     StencilBlocks blocks;
     blocks.firsts.push_back(0);
-    std::vector<Draft> all = drafts(stencils);
-    std::ranges::stable_sort(all, {}, [](const Draft& draft) { return roundedUp(draft.points.size()); });
     std::vector<std::uint32_t> placeOf;
     placeOf.resize(1 + (stencils.indices.empty() ? 0 : *std::ranges::max_element(stencils.indices)));
+    for (const Draft& draft : drafts(stencils, 0, stencils.sharedRowCount)) addBlock(stencils, draft, placeOf, blocks);
+    blocks.sharedBlockCount = std::uint32_t(blocks.blockCount());
+
+    std::vector<Draft> all = drafts(stencils, stencils.sharedRowCount, std::uint32_t(stencils.rowCount()));
+    std::ranges::stable_sort(all, {}, [](const Draft& draft) { return roundedUp(draft.points.size()); });
     for (const Draft& draft : all) {
         const std::uint32_t entryCount = roundedUp(draft.points.size());
         if (blocks.classes.empty() || blocks.classes.back().entryCount != entryCount)

@@ -86,19 +86,40 @@ void checkForLoop(const Cage& cage) {
                  face, cage.faceSizes[face]);
 }
 
-// Each of the points around a face or vertex depends on all of the others there: memory grows with the square.
-constexpr std::uint32_t kMostNeighbours = 1000;
+// The tangents around the middle of a face or vertex of n neighbours depend on all n: memory grows with the square.
+constexpr std::uint32_t kMostNeighbours = 1000, kManyNeighbours = 64;
+constexpr double kBytesPerSquare = 500, kMostBytes = 4e9; // measured: 480 MB for n = 1000, most of it inside OpenSubdiv
+
+/// Faces and vertices of many neighbours, and what they take together.
+struct Neighbours {
+    double squares = 0;
+    std::uint32_t most = 0;
+    std::string largest; ///< in words
+
+    void add(std::uint32_t count, const char* format, std::size_t index) {
+        if (count <= kManyNeighbours) return;
+        squares += double(count) * count;
+        if (count <= most) return;
+        most = count;
+        largest = fmt::format(fmt::runtime(format), index, count);
+    }
+};
 
 void checkNeighbours(const Cage& cage) {
+    Neighbours all;
     for (std::size_t face = 0; face < cage.faceCount(); ++face)
-        if (cage.faceSizes[face] > kMostNeighbours)
-            fail(Failure::input, "face {} has {} corners: at most {} can be subdivided, split it", face,
-                 cage.faceSizes[face], kMostNeighbours);
+        all.add(cage.faceSizes[face], "face {} has {} corners", face);
     std::vector<std::uint32_t> faceCounts(cage.positions.size());
-    for (const std::uint32_t vertex : cage.corners)
-        if (++faceCounts[vertex] > kMostNeighbours)
-            fail(Failure::input, "vertex {} has more than {} faces: that many cannot be subdivided, split it", vertex,
-                 kMostNeighbours);
+    for (const std::uint32_t vertex : cage.corners) ++faceCounts[vertex];
+    for (std::size_t vertex = 0; vertex < faceCounts.size(); ++vertex)
+        all.add(faceCounts[vertex], "vertex {} has {} faces", vertex);
+    const double bytes = kBytesPerSquare * all.squares;
+    if (all.most > kMostNeighbours)
+        fail(Failure::input, "{}: at most {} can be subdivided, split it", all.largest, kMostNeighbours);
+    if (bytes > kMostBytes)
+        fail(Failure::input,
+             "{}: subdividing it and others of more than {} takes about {}, up to {} are allowed; split them",
+             all.largest, kManyNeighbours, humanBytes(std::uint64_t(bytes)), humanBytes(std::uint64_t(kMostBytes)));
 }
 
 Far::PatchTableFactory::Options patchOptions(bool hasTexCoords, int isolation) {
@@ -119,6 +140,16 @@ Far::PatchTableFactory::Options patchOptions(bool hasTexCoords, int isolation) {
 int leastIsolation(const Cage& cage, Scheme scheme) {
     const auto isQuad = [](std::uint32_t size) { return size == 4; };
     return scheme == Scheme::loop || std::all_of(cage.faceSizes.begin(), cage.faceSizes.end(), isQuad) ? 0 : 1;
+}
+
+[[noreturn]] void failWithoutPatches(const Cage& cage) {
+    if (cage.holes.size() == cage.faceCount())
+        fail(Failure::input, "all {} faces are holes: nothing is drawn; remove some of their hole tags",
+             cage.faceCount());
+    fail(Failure::input,
+         "none of its {} faces is drawn: all are holes or at a boundary, where interpolateboundary 0 draws no faces; "
+         "use interpolateboundary 1 or 2",
+         cage.faceCount());
 }
 
 } // namespace
@@ -146,6 +177,7 @@ FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options) {
     tables.refiner->RefineAdaptive(patchTableOptions.GetRefineAdaptiveOptions());
     tables.patches.reset(Far::PatchTableFactory::Create(*tables.refiner, patchTableOptions));
     if (!tables.patches) failWithComplaint("no patches could be made of the cage");
+    if (tables.patches->GetNumPatchesTotal() == 0) failWithoutPatches(cage);
     return tables;
 }
 

@@ -5,7 +5,8 @@ namespace relief {
 namespace {
 
 RowTable makeRows(const FarTables& tables) {
-    RowTable rows(tables.refiner->GetLevel(0).GetNumVertices(), pointCount(tables));
+    RowTable rows(tables.refiner->GetLevel(0).GetNumVertices(), tables.refiner->GetNumVerticesTotal(),
+                  pointCount(tables));
     blendPoints(tables, [&](int first) { return RowTable::Rows{&rows, std::size_t(first)}; });
     rows.close();
     return rows;
@@ -26,6 +27,29 @@ std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uin
     return oldIndex;
 }
 
+/// Shared rows come first and stand for all points that are one. Returns the points with rows of their own, in order.
+std::vector<std::uint32_t> renumberRows(Surface& surface, const RowTable& rows,
+                                        const std::vector<std::uint32_t>& used) {
+    std::vector<std::uint32_t> ownRows, newRows;
+    for (const std::uint32_t point : used) {
+        const std::optional<std::uint32_t> shared = rows.sharedRowOf(point);
+        newRows.push_back(shared ? *shared : std::uint32_t(rows.sharedRows().size() + ownRows.size()));
+        if (!shared) ownRows.push_back(point);
+    }
+    for (std::uint32_t& point : surface.patchPoints)
+        if (point >= surface.controlPointCount)
+            point = surface.controlPointCount + newRows[point - surface.controlPointCount];
+    return ownRows;
+}
+
+void addRow(Stencils& stencils, std::span<const RowTable::Entry> row) {
+    for (const RowTable::Entry& entry : row) {
+        stencils.indices.push_back(entry.index);
+        stencils.weights.push_back(float(entry.weight));
+    }
+    stencils.offsets.push_back(std::uint32_t(stencils.indices.size()));
+}
+
 } // namespace
 
 void fillStencils(Surface& surface, FarTables tables) {
@@ -34,21 +58,19 @@ void fillStencils(Surface& surface, FarTables tables) {
     addStraightCorners(surface, rows);
     const auto used = compact(surface.patchPoints, surface.controlPointCount, rows.size());
     tables = {}; // the largest thing in memory, and not needed beside the arrays that grow below
+    const std::vector<std::uint32_t> ownRows = renumberRows(surface, rows, used);
 
     std::size_t weightCount = 0;
-    for (const std::uint32_t point : used) weightCount += rows.row(point).size();
+    for (const auto& row : rows.sharedRows()) weightCount += row.size();
+    for (const std::uint32_t point : ownRows) weightCount += rows.row(point).size();
     Stencils& stencils = surface.stencils;
     stencils.indices.reserve(weightCount);
     stencils.weights.reserve(weightCount);
-    stencils.offsets.reserve(used.size() + 1);
+    stencils.offsets.reserve(rows.sharedRows().size() + ownRows.size() + 1);
     stencils.offsets.push_back(0);
-    for (const std::uint32_t point : used) {
-        for (const auto& entry : rows.row(point)) {
-            stencils.indices.push_back(entry.index);
-            stencils.weights.push_back(float(entry.weight));
-        }
-        stencils.offsets.push_back(std::uint32_t(stencils.indices.size()));
-    }
+    for (const auto& row : rows.sharedRows()) addRow(stencils, row);
+    for (const std::uint32_t point : ownRows) addRow(stencils, rows.row(point));
+    stencils.sharedRowCount = std::uint32_t(rows.sharedRows().size());
 }
 
 void fillTexPoints(Surface& surface, const FarTables& tables, const std::vector<vec2>& texCoords) {
@@ -68,10 +90,10 @@ std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cag
         // A row's weights sum to 1; taken as offsets from one of its points, their rounding scales with the row's
         // extent and not with its distance from the origin.
         const std::uint32_t first = stencils.offsets[row];
-        const dvec3 origin(cagePositions[stencils.indices[first]]);
+        const dvec3 origin(points[stencils.indices[first]]);
         dvec3 offset(0);
         for (std::uint32_t k = first + 1; k < stencils.offsets[row + 1]; ++k)
-            offset += double(stencils.weights[k]) * (dvec3(cagePositions[stencils.indices[k]]) - origin);
+            offset += double(stencils.weights[k]) * (dvec3(points[stencils.indices[k]]) - origin);
         points.emplace_back(origin + offset);
     }
     return points;

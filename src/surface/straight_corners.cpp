@@ -13,7 +13,7 @@ namespace {
 /// Compares rows as vectors of weights, as seen from a third row.
 class RowAngles {
 public:
-    explicit RowAngles(std::size_t cagePointCount) : sums_(cagePointCount) {}
+    explicit RowAngles(std::size_t namedCount) : sums_(namedCount) {}
 
     struct Angle {
         double length, cosine; ///< of the longer of a - origin and b - origin; between the two
@@ -40,7 +40,7 @@ private:
         }
     }
 
-    std::vector<dvec2> sums_; ///< per cage point: of a - origin and b - origin
+    std::vector<dvec2> sums_; ///< per point that entries name: of a - origin and b - origin
     std::vector<std::uint32_t> used_;
 };
 
@@ -65,7 +65,7 @@ CornerDirections directionsAt(int sideCount, int corner) {
 class StraightCornerBuilder {
 public:
     StraightCornerBuilder(Surface& surface, RowTable& rows)
-        : surface_(surface), rows_(rows), angles_(surface.controlPointCount) {}
+        : surface_(surface), rows_(rows), angles_(rows.namedCount()) {}
 
     void build() {
         std::vector<std::uint32_t> points;

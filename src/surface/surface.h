@@ -16,11 +16,12 @@ struct SurfaceOptions {
     int isolation = 6; ///< levels of adaptive refinement around features, 0..10
 };
 
-/// point[controlPointCount + row] = sum of weights[k] * cage position[indices[k]], k in [offsets[row], offsets[row+1]).
+/// point[controlPointCount + row] = sum of weights[k] * point[indices[k]], k in [offsets[row], offsets[row+1]).
 struct Stencils {
     std::vector<std::uint32_t> offsets; ///< rowCount + 1 entries
-    std::vector<std::uint32_t> indices; ///< into the cage's positions
+    std::vector<std::uint32_t> indices; ///< of points: of the cage, or of shared rows in rows that are not shared
     std::vector<float> weights;
+    std::uint32_t sharedRowCount = 0; ///< the first rows; around a vertex of many faces all others need what they sum
 
     [[nodiscard]] std::size_t rowCount() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };

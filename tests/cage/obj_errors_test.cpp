@@ -18,9 +18,20 @@ TEST(ObjLoader, refusesFaceIndexPastTheLastVertex) {
     expectRefused(kSquare + "f 1 2 3\nf 1 2 9\n", 6, {"vertex index 9", "there are 4"});
 }
 
-TEST(ObjLoader, refusesFaceIndexPastTheLastTextureCoordinateOrNormal) {
+TEST(ObjLoader, refusesFaceIndexPastTheLastTextureCoordinate) {
     expectRefused(kSquare + "vt 0 0\nf 1/1 2/1 3/2\n", 6, {"texture coordinate index 2", "there are 1"});
-    expectRefused(kSquare + "f 1//1 2//1 3//1\n", 5, {"normal index 1", "there are 0"});
+}
+
+TEST(ObjLoader, hintsAtTwoSlashesWhereNormalsStandAsTextureCoordinates) {
+    const std::string hint = "write v//vn", square = kSquare + "vn 0 0 1\n";
+    expectRefused(square + "f 1/1 2/1 3/1\n", 6, {"texture coordinate index 1", "there are 0", hint});
+    expectRefused(square + "f 1/-1 2/-1 3/-1\n", 6, {"texture coordinate index -1", hint});
+    for (const std::string& text : {square + "f 1/1/1 2/1/1 3/1/1\n", kSquare + "f 1/1 2/1 3/1\n"}) try {
+            parseObj(text, "test.obj");
+            FAIL();
+        } catch (const Error& error) {
+            EXPECT_EQ(std::string(error.what()).find(hint), std::string::npos) << error.what();
+        }
 }
 
 TEST(ObjLoader, refusesFaceIndexThatReachesBeforeTheFirstVertex) {
@@ -41,15 +52,21 @@ TEST(ObjLoader, refusesFaceIndexThatIsNoWholeNumber) {
     expectRefused(kSquare + "vt 0 0\nf /1 2 3\n", 6, {"whole number"});
 }
 
-TEST(ObjLoader, refusesFacesOfFewerThanThreeCorners) {
-    expectRefused(kSquare + "f 1 2\nf 1 2 3\nt hole 1/0/0 0\n", 5, {"2 corners", "3 or more"});
-    expectRefused(kSquare + "f 1\n", 5, {"1 corners"});
-    expectRefused(kSquare + "f\n", 5, {"0 corners"});
+TEST(ObjLoader, refusesFilesOfDegenerateFacesAlone) {
+    expectRefused(kSquare + "f 1 2\n", 5, {"fewer than 3 corners", "all 1 faces"});
+    expectRefused(kSquare + "f 1 2 3 2\nf 4\n", 5, {"vertex 2 twice", "all 2 faces"});
+    expectRefused(kSquare + "f\n" + kFace, 5, {"no corners"});
 }
 
-TEST(ObjLoader, refusesFacesThatUseAVertexTwice) {
-    expectRefused(kSquare + "f 1 2 3 2\n", 5, {"vertex 2 twice"});
-    expectRefused(kSquare + "f 1 2 3 -4\n", 5, {"vertex 1 twice"});
+TEST(ObjLoader, refusesLinesWithoutEnd) {
+    const std::string digits(20'000'000, '1'), spaces(20'000'000, ' ');
+    expectRefused(kSquare + "v 0 0 " + digits + "\n", 5, {"16.0 MB"});
+    expectRefused(kSquare + "o " + digits + "\n", 5, {"16.0 MB"});
+    expectRefused(kSquare + "f 1" + spaces + "2 3\n", 5, {"16.0 MB"});
+    std::string joined = kSquare + "f";
+    for (int k = 0; k < 40; ++k) joined += std::string(500'000, ' ') + "\\\n";
+    expectRefused(joined + "1 2 3\n", 5, {"16.0 MB"});
+    EXPECT_NO_THROW(parseObj(kSquare + "# " + digits + "\n" + kFace, "test.obj"));
 }
 
 TEST(ObjLoader, refusesNumbersThatAreNotFinite) {
@@ -71,17 +88,6 @@ TEST(ObjLoader, refusesTooFewOrTooManyNumbers) {
     expectRefused("vt\n", 1, {"texture coordinate", "1 to 3", "has 0"});
     expectRefused("vt 1 2 3 4\n", 1, {"has 4"});
     expectRefused("vn 1 2\n", 1, {"normal", "has 2"});
-}
-
-TEST(ObjLoader, refusesTextureCoordinatesOnSomeFacesOnly) {
-    const std::string square = kSquare + "vt 0 0\n";
-    expectRefused(square + "f 1/1 2/1 3/1\nf 2 3 4\n", 7, {"no texture coordinates", "line 6"});
-    expectRefused(square + "f 2 3 4\nf 1 2 3\nf 1/1 2/1 3/1\n", 8, {"line 6"});
-}
-
-TEST(ObjLoader, refusesTextureCoordinatesOnSomeCornersOnly) {
-    expectRefused(kSquare + "vt 0 0\nf 1/1 2 3/1\n", 6, {"2 of this face's 3 corners", "texture coordinate"});
-    expectRefused(kSquare + "vn 0 0 1\nf 1//1 2 3\n", 6, {"1 of this face's 3 corners", "normal"});
 }
 
 TEST(ObjLoader, countsLinesAsEditorsDo) {
