@@ -144,7 +144,7 @@ std::size_t countPrimitives(const GltfScene& scene, const Has& has) {
 } // namespace
 
 Cage readGltfCage(const std::string& path, const Warn& warn) {
-    const GltfScene scene = readGltf(path, warn);
+    const GltfScene scene = readGltf(path, {}, warn);
     const std::size_t all = countPrimitives(scene, [](const GltfPrimitive&) { return true; });
     const std::size_t textured = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.texCoords.empty(); });
     const std::size_t shaded = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.normals.empty(); });
