@@ -158,15 +158,28 @@ std::span<const unsigned char> GltfBuffers::buffer(std::uint32_t index, const st
     return {reinterpret_cast<const unsigned char*>(bytes.data()), length};
 }
 
-std::span<const unsigned char> GltfBuffers::view(std::uint32_t index, const std::string& place) {
-    const GltfElement from = document_.entry("bufferViews", "buffer view", index, place);
+std::span<const unsigned char> GltfBuffers::part(const GltfElement& from, const std::string& what,
+                                                 const std::string& place) {
     const std::uint64_t offset = from.size("byteOffset"), length = from.need("byteLength").size("byteLength");
     const std::uint32_t number = *from.need("buffer").integer("buffer");
     const std::span<const unsigned char> bytes = buffer(number, from.place());
     if (offset + length > bytes.size()) // both of 32 bits
-        failAtElement(document_.path, place, "buffer view {} ends at byte {} of buffer {}, which has {}", index,
-                      offset + length, number, bytes.size());
+        failAtElement(document_.path, place, "{} ends at byte {} of buffer {}, which has {}", what, offset + length,
+                      number, bytes.size());
     return bytes.subspan(offset, length);
+}
+
+std::span<const unsigned char> GltfBuffers::view(std::uint32_t index, const std::string& place) {
+    const GltfElement from = document_.entry("bufferViews", "buffer view", index, place);
+    const std::string what = fmt::format("buffer view {}", index);
+    const std::optional<GltfElement> extension = from.extension("EXT_meshopt_compression");
+    if (!extension) return part(from, what, place);
+    auto found = decompressed_.find(index);
+    if (found == decompressed_.end()) {
+        const std::uint64_t length = from.need("byteLength").size("byteLength");
+        found = decompressed_.emplace(index, decodeMeshopt(*extension, length, part(*extension, what, place))).first;
+    }
+    return {reinterpret_cast<const unsigned char*>(found->second.data()), found->second.size()};
 }
 
 } // namespace relief

@@ -70,6 +70,7 @@ struct KnownExtension {
 constexpr KnownExtension kExtensions[] = {
     {"KHR_mesh_quantization", ExtensionKind::read},
     {"KHR_draco_mesh_compression", ExtensionKind::read},
+    {"EXT_meshopt_compression", ExtensionKind::read},
     {"KHR_materials_", ExtensionKind::looks},
     {"KHR_texture_", ExtensionKind::looks},
     {"KHR_lights_", ExtensionKind::looks},

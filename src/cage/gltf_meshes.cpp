@@ -84,6 +84,7 @@ std::vector<std::uint32_t> PrimitiveReader::readCorners() {
     const std::optional<std::uint32_t> indices = from_.integer("indices");
     if (compressed_ != nullptr) return dracoCorners(*compressed_);
     if (indices) return accessors_.integers(*indices, {.place = placeOf("indices"), .count = {}}, 4);
+    accessors_.checkRoom(4 * vertexCount_, from_.place()); // a corner and a position each
     accessors_.takeRoom(vertexCount_, from_.place());
     std::vector<std::uint32_t> corners(vertexCount_);
     std::iota(corners.begin(), corners.end(), 0u);

@@ -45,10 +45,17 @@ public:
 
 private:
     [[nodiscard]] std::span<const unsigned char> buffer(std::uint32_t index, const std::string& place);
+    /// What a view, or its extension, names of a buffer.
+    [[nodiscard]] std::span<const unsigned char> part(const GltfElement& from, const std::string& what,
+                                                      const std::string& place);
 
     const GltfDocument& document_;
-    std::map<std::uint32_t, std::string> read_; ///< those that are not in the document's file
+    std::map<std::uint32_t, std::string> read_;         ///< those that are not in the document's file
+    std::map<std::uint32_t, std::string> decompressed_; ///< views of EXT_meshopt_compression
 };
+
+/// The `byteCount` bytes of a view that its extension EXT_meshopt_compression holds compressed in `from`.
+std::string decodeMeshopt(const GltfElement& extension, std::uint64_t byteCount, std::span<const unsigned char> from);
 
 /// What an accessor must be to be read for a purpose.
 struct GltfUse {
