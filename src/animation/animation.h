@@ -58,6 +58,13 @@ std::unique_ptr<Animation> stillPose(const Cage& cage);
 /// The motion of `points` alone, in their order: what moves a cage moves a welded one by WeldedCage::sources.
 std::unique_ptr<Animation> gather(std::unique_ptr<Animation> base, std::vector<std::uint32_t> points);
 
+// --- plain polygons ----------------------------------------------------------------------------------------------
+
+/// Turns the normals of a cage, which are still those of `restPositions`, with the faces around them: what a pose is
+/// drawn with as plain polygons. A normal of a single face stays as it is to that face; one that faces share stays
+/// shared by them. Each corner's number of its normal changes the same way for all poses of one cage.
+void turnNormals(Cage& cage, std::span<const vec3> restPositions);
+
 // --- point caches ------------------------------------------------------------------------------------------------
 
 /// How positions between two keys are made.
@@ -66,6 +73,7 @@ enum class Interpolation { linear, step };
 struct CacheOptions {
     double fps = 24; ///< where a cache counts in frames (PC2, OBJ): frame k is at k / fps seconds; MDD has seconds
     Interpolation interpolation = Interpolation::linear;
+    bool countsFrames = false; ///< the times in a .pc2 or .mdd are ignored: its frame k, from 0, is at k / fps seconds
 };
 
 /// A point cache by the name of its file: .pc2, .mdd, or a sequence of cages, `cage.{frame:4}.obj` ({frame} or

@@ -10,6 +10,7 @@ namespace relief {
 namespace {
 
 constexpr double kStandInSeconds = 4; ///< what moves without an end is shown for so long
+constexpr double kFarthest = 1e6;     ///< diagonals of the box that a point may move: floats tell no points apart there
 
 struct Deformer {
     const DeformerKind* kind = nullptr;
@@ -164,12 +165,13 @@ Pose DeformedAnimation::pose(double seconds) const {
 
     Pose pose{.positions = posedPositions(base_->rig(), base_->pose(seconds)), .joints = {}, .morphWeights = {}};
     for (std::size_t i = 0; i < pose.positions.size(); ++i) {
-        dvec3 p(pose.positions[i]);
+        const dvec3 before(pose.positions[i]);
+        dvec3 p = before;
         for (const Move& move : moves) p = move(p);
-        pose.positions[i] = p;
-        if (const vec3& q = pose.positions[i]; !std::isfinite(double(q.x) + q.y + q.z))
+        if (!(glm::length(p - before) <= kFarthest * box_.diagonal()))
             fail(Failure::usage, "deformers: point {} goes to ({} {} {}) at t = {} seconds; use smaller values", i, p.x,
                  p.y, p.z, seconds);
+        pose.positions[i] = p;
     }
     return pose;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <set>
 
 #include "base/point_tree.h"
 
@@ -92,6 +94,24 @@ Match matchNearest(const Cage& cage, std::vector<dvec3> places, bool isAtRest) {
     return match;
 }
 
+/// The match of a cage that was read from this very file (readCage): its points are the places of each node's vertices,
+/// in their order and each once. By distance alone, nodes that meet would take each other's points.
+std::optional<Match> matchOwn(const Cage& cage, const std::vector<Source>& sources, const std::vector<dvec3>& places) {
+    Match match;
+    std::set<std::array<double, 3>> ofNode;
+    for (std::uint32_t i = 0; i < sources.size(); ++i) {
+        if (i > 0 && sources[i].node != sources[i - 1].node) ofNode.clear();
+        const dvec3 p = places[i] + dvec3(0); // both zeros are one
+        if (!ofNode.insert({p.x, p.y, p.z}).second) continue;
+        const std::size_t point = match.sources.size();
+        if (point >= cage.positions.size() || dvec3(cage.positions[point]) != p) return std::nullopt;
+        match.sources.push_back(i);
+    }
+    if (match.sources.size() != cage.positions.size()) return std::nullopt;
+    match.distances.resize(match.sources.size(), 0);
+    return match;
+}
+
 void checkExact(const Match& match, const Cage& cage, double tolerance, const std::string& path) {
     const auto isOff = [&](double distance) { return !(distance <= tolerance); };
     const auto first = std::find_if(match.distances.begin(), match.distances.end(), isOff);
@@ -110,7 +130,9 @@ Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Sour
     Bounds bounds;
     for (const vec3& p : cage.positions) bounds.add(dvec3(p));
     const double tolerance = kTolerance * bounds.diagonal();
-    Match atRest = matchNearest(cage, restPlaces(scene, sources, path), true);
+    std::vector<dvec3> places = restPlaces(scene, sources, path);
+    if (std::optional<Match> own = matchOwn(cage, sources, places)) return *own;
+    Match atRest = matchNearest(cage, std::move(places), true);
     if (atRest.largestDistance() <= tolerance) return atRest;
     Match inMeshes = matchNearest(cage, meshPlaces(sources), false);
     if (inMeshes.largestDistance() <= tolerance) return inMeshes;

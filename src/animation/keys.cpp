@@ -66,13 +66,16 @@ dvec2 KeyedAnimation::keyRange() const {
     return {times_.seconds.front(), times_.seconds.back()};
 }
 
-void checkTimes(const std::vector<double>& seconds, const KeyReader& reader) {
+void checkTimes(const KeyTimes& times, const KeyReader& reader) {
+    const std::vector<double>& seconds = times.seconds;
+    const std::string remedy = *times.remedy == 0 ? "" : fmt::format("; {}", times.remedy);
     for (std::size_t i = 0; i < seconds.size(); ++i) {
         if (!std::isfinite(seconds[i]))
-            fail(Failure::input, "{} is at {} seconds; a finite number is needed", reader.name(i), seconds[i]);
+            fail(Failure::input, "{} is at {} seconds; a finite number is needed{}", reader.name(i), seconds[i],
+                 remedy);
         if (i > 0 && seconds[i] <= seconds[i - 1])
-            fail(Failure::input, "{} is at {} seconds, the frame before it at {}; times must rise", reader.name(i),
-                 seconds[i], seconds[i - 1]);
+            fail(Failure::input, "{} is at {} seconds, the frame before it at {}; times must rise{}", reader.name(i),
+                 seconds[i], seconds[i - 1], remedy);
     }
 }
 
@@ -91,7 +94,7 @@ void checkFps(double fps) {
 }
 
 std::unique_ptr<Animation> animateKeys(std::unique_ptr<KeyReader> reader, KeyTimes times, Interpolation interpolation) {
-    checkTimes(times.seconds, *reader);
+    checkTimes(times, *reader);
     return std::make_unique<KeyedAnimation>(std::move(reader), std::move(times), interpolation);
 }
 

@@ -17,8 +17,9 @@ public:
 
 struct KeyTimes {
     std::vector<double> seconds; ///< one a key, at least one
-    bool areFloats = false; ///< the file rounds them: a time that rounds to a key's is that key's, and frame k finds
-                            ///< its own key, not a blend with the one before
+    bool areFloats = false;  ///< the file rounds them: a time that rounds to a key's is that key's, and frame k finds
+                             ///< its own key, not a blend with the one before
+    const char* remedy = ""; ///< what helps where they are wrong
 };
 
 /// Keys in use are kept, so that frames in a row read each key once. Throws Failure::input unless all times are finite

@@ -14,6 +14,8 @@ namespace relief {
 namespace {
 
 constexpr int kMostFrames = std::numeric_limits<std::int32_t>::max();
+constexpr float kLeastRate = 1e-3f, kMostRate = 1e3f; ///< frames per sample: slower or faster is damage
+constexpr const char* kCountFrames = "--cache-frames takes its frame k as frame k";
 
 /// Words of a file, wherever they are asked for.
 class CacheFile {
@@ -137,19 +139,19 @@ std::unique_ptr<Animation> readPc2(const std::string& path, const Cage& cage, co
         fail(Failure::input, "{}: the file looks byte-swapped (version {}); .pc2 is little endian", path, version);
     if (version != 1) fail(Failure::input, "{}: version {} of .pc2; only 1 is known", path, std::int32_t(version));
     checkPointCount(path, pointCount, cage.positions.size());
-    if (!std::isfinite(start))
+    if (!options.countsFrames && !std::isfinite(start))
         fail(Failure::input, "{}: the start frame is {}; a finite number is needed", path, start);
-    if (!std::isfinite(rate) || rate <= 0)
-        fail(Failure::input, "{}: the sample rate is {} frames a sample; a finite number above 0 is needed", path,
-             rate);
+    if (!options.countsFrames && !(rate >= kLeastRate && rate <= kMostRate))
+        fail(Failure::input, "{}: the sample rate is {} frames per sample; {} to {} are possible; {}", path, rate,
+             kLeastRate, kMostRate, kCountFrames);
     checkFrameCount(path, sampleCount);
     const CacheBody body{.offset = kPc2HeaderBytes, .pointCount = pointCount, .frameCount = sampleCount};
     checkBodyLength(file, body);
 
-    KeyTimes times;
-    times.seconds.resize(sampleCount);
-    for (std::size_t i = 0; i < sampleCount; ++i) times.seconds[i] = (start + double(i) * rate) / options.fps;
-    auto reader = std::make_unique<CacheReader>(std::move(file), body, start, rate);
+    const double first = options.countsFrames ? 0 : start, step = options.countsFrames ? 1 : rate;
+    KeyTimes times{.seconds = {}, .remedy = kCountFrames};
+    for (std::size_t i = 0; i < sampleCount; ++i) times.seconds.push_back((first + double(i) * step) / options.fps);
+    auto reader = std::make_unique<CacheReader>(std::move(file), body, first, step);
     return animateKeys(std::move(reader), std::move(times), options.interpolation);
 }
 
@@ -163,9 +165,11 @@ std::unique_ptr<Animation> readMdd(const std::string& path, const Cage& cage, co
     const CacheBody body{.offset = 8 + 4ull * frameCount, .pointCount = pointCount, .frameCount = frameCount};
     checkBodyLength(file, body);
 
-    KeyTimes times{.seconds = {}, .areFloats = true};
+    KeyTimes times{.seconds = {}, .areFloats = !options.countsFrames, .remedy = kCountFrames};
     times.seconds.reserve(frameCount);
-    for (const std::uint32_t word : file.words(8, frameCount)) times.seconds.push_back(std::bit_cast<float>(word));
+    for (const std::uint32_t word : file.words(8, frameCount))
+        times.seconds.push_back(options.countsFrames ? double(times.seconds.size()) / options.fps
+                                                     : std::bit_cast<float>(word));
     auto reader = std::make_unique<CacheReader>(std::move(file), body, 0, 1);
     return animateKeys(std::move(reader), std::move(times), options.interpolation);
 }

@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cmath>
 
 #include "animation/gltf_bind.h"
@@ -9,14 +8,14 @@ namespace {
 
 class Skin : public Animation {
 public:
-    /// Without meshes; the clip is one of the scene's, or none.
-    Skin(std::string path, GltfScene scene, GltfBinding binding, std::optional<std::size_t> clip)
-        : path_(std::move(path)), scene_(std::move(scene)), binding_(std::move(binding)), clip_(clip) {}
+    /// The scene is without meshes.
+    Skin(std::string path, GltfScene scene, GltfBinding binding)
+        : path_(std::move(path)), scene_(std::move(scene)), binding_(std::move(binding)) {}
 
     [[nodiscard]] Pose pose(double seconds) const override {
         GltfMotion motion{.transforms = restTransforms(scene_), .weights = {}};
         for (const GltfNode& node : scene_.nodes) motion.weights.push_back(node.weights);
-        if (clip_) applyClip(scene_.clips[*clip_], seconds, motion);
+        if (scene_.clip) applyClip(*scene_.clip, seconds, motion);
         const std::vector<glm::dmat4> worlds = worldMatrices(scene_, motion.transforms);
         Pose pose;
         for (const GltfJoint& joint : binding_.joints) {
@@ -33,7 +32,7 @@ public:
 
     [[nodiscard]] const Rig* rig() const override { return &binding_.rig; }
 
-    [[nodiscard]] dvec2 keyRange() const override { return clip_ ? keyRangeOf(scene_.clips[*clip_]) : dvec2(0); }
+    [[nodiscard]] dvec2 keyRange() const override { return scene_.clip ? keyRangeOf(*scene_.clip) : dvec2(0); }
 
 private:
     /// Finite numbers may still multiply past all floats.
@@ -47,44 +46,17 @@ private:
     std::string path_;
     GltfScene scene_;
     GltfBinding binding_;
-    std::optional<std::size_t> clip_;
 };
-
-std::string listOf(const std::vector<GltfClip>& clips) {
-    constexpr std::size_t kMost = 20;
-    std::string list;
-    for (std::size_t i = 0; i < clips.size() && i < kMost; ++i)
-        list += fmt::format("{}{} '{}'", i == 0 ? "" : ", ", i, printable(clips[i].name));
-    return clips.size() > kMost ? list + ", ..." : list;
-}
-
-/// By name, else by number; the first where nothing is asked for.
-std::size_t findClip(const std::vector<GltfClip>& clips, const std::string& asked, const std::string& path) {
-    if (asked.empty()) return 0;
-    for (std::size_t i = 0; i < clips.size(); ++i)
-        if (clips[i].name == asked) return i;
-    std::size_t number = 0;
-    const auto [end, error] = std::from_chars(asked.data(), asked.data() + asked.size(), number);
-    if (error != std::errc() || end != asked.data() + asked.size() || number >= clips.size())
-        fail(Failure::input, "{}: there is no animation '{}'; there are {}", path, printable(asked), listOf(clips));
-    return number;
-}
 
 } // namespace
 
 std::unique_ptr<Animation> readSkin(const std::string& path, const Cage& cage, const SkinOptions& options,
                                     const Warn& warn) {
-    GltfScene scene = readGltf(path, warn);
-    std::optional<std::size_t> clip;
-    if (!scene.clips.empty())
-        clip = findClip(scene.clips, options.clip, path);
-    else if (options.clip.empty())
-        warn(fmt::format("{}: there is no animation in it; the cage stands still", path));
-    else
-        fail(Failure::input, "{}: there is no animation '{}', nor any other", path, printable(options.clip));
+    GltfScene scene = readGltf(path, options.clip, warn);
+    if (!scene.clip) warn(fmt::format("{}: there is no animation in it; the cage stands still", path));
     GltfBinding binding = bindCage(scene, cage, options.bindsNearest, path, warn);
     scene.meshes.clear();
-    return std::make_unique<Skin>(path, std::move(scene), std::move(binding), clip);
+    return std::make_unique<Skin>(path, std::move(scene), std::move(binding));
 }
 
 } // namespace relief

@@ -49,6 +49,13 @@ void checkTarget(const AnimateArgs& args) {
 
 // --- what moves ----------------------------------------------------------------------------------------------------
 
+constexpr double kLargestFrame = 1e9;
+
+const std::string& movedBy(const AnimateArgs& args) {
+    const PoseArgs& pose = args.surface.pose;
+    return !pose.cache.empty() ? pose.cache : !pose.skin.empty() ? pose.skin : args.surface.cage;
+}
+
 /// Frames that are asked for, or all that there are.
 std::vector<int> framesOf(const AnimateArgs& args, const Animation* animation) {
     if (!args.frames.empty()) return parseFrames(args.frames);
@@ -57,6 +64,10 @@ std::vector<int> framesOf(const AnimateArgs& args, const Animation* animation) {
         if (animation == nullptr)
             fail(Failure::usage, "{}: nothing moves; name --cache, --skin, --deform or --turntable", args.surface.cage);
         range = animation->keyRange() * args.surface.pose.fps;
+        if (!(std::max(std::abs(range.x), std::abs(range.y)) <= kLargestFrame))
+            fail(Failure::input, "{}: its keys are from {} to {} seconds; name the --frames{}", movedBy(args),
+                 animation->keyRange().x, animation->keyRange().y,
+                 args.surface.pose.cache.empty() ? "" : ", or take its own with --cache-frames");
     }
     return parseFrames(fmt::format("{}:{}", int(std::ceil(range.x - 1e-6)), int(std::floor(range.y + 1e-6))));
 }
@@ -67,13 +78,18 @@ double secondsOf(int frame, const PoseArgs& pose) { return frame / pose.fps; }
 std::vector<dvec3> outlineOfAll(const Loaded& loaded) {
     if (!loaded.animation) return outlineOf(loaded);
     constexpr int kPoses = 9;
-    ReferenceSurface coarse(loaded.cage, {.scheme = loaded.options.scheme, .isolation = 2});
+    std::optional<ReferenceSurface> coarse;
+    if (!loaded.dense) coarse.emplace(loaded.cage, SurfaceOptions{.scheme = loaded.options.scheme, .isolation = 2});
     const dvec2 range = loaded.animation->keyRange();
     std::vector<dvec3> points;
     for (int i = 0; i < (range.x < range.y ? kPoses : 1); ++i) {
         const Pose pose = loaded.animation->pose(glm::mix(range.x, range.y, double(i) / (kPoses - 1)));
-        coarse.pose(posedPositions(loaded.animation->rig(), pose));
-        const std::vector<dvec3> more = outline(coarse, loaded.heightMap());
+        const std::vector<vec3> posed = posedPositions(loaded.animation->rig(), pose);
+        std::vector<dvec3> more(posed.begin(), posed.end());
+        if (coarse) {
+            coarse->pose(posed);
+            more = outline(*coarse, loaded.heightMap());
+        }
         points.insert(points.end(), more.begin(), more.end());
     }
     return points;
@@ -120,6 +136,7 @@ public:
 
 private:
     [[nodiscard]] RenderOptions optionsAt(int frame) const;
+    void posePolygons(int frame, DrawnFrame& drawn);
     [[nodiscard]] Pose poseAt(int frame) const { return loaded_.animation->pose(secondsOf(frame, args_.surface.pose)); }
 
     const AnimateArgs& args_;
@@ -127,10 +144,13 @@ private:
     std::vector<int> frames_;
     Loaded loaded_;
     Shading shading_;
-    Bounds bounds_; ///< of the object in all poses that the camera holds
+    Bounds bounds_;                          ///< of the object in all poses that the camera holds
+    std::optional<MovingPolygons> polygons_; ///< instead of a surface that moves
+    Bounds polygonBounds_;                   ///< in the pose that is drawn
     std::unique_ptr<Device> device_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<Poser> poser_;
+    std::unique_ptr<MeshPoser> meshPoser_; ///< of the polygons
     std::unique_ptr<Renderer> renderer_;
 };
 
@@ -138,14 +158,18 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
     SurfaceArgs surface = args.surface;
     surface.pose.staysAtRest = true;
     loaded_ = load(surface, output, picture_.albedo);
-    if (loaded_.dense && loaded_.animation)
-        fail(Failure::usage, "{}: what moves is a subdivision surface; name its --scheme", surface.cage);
     warnOfPlainTags(loaded_, surface, output.warn());
+    if (loaded_.dense && loaded_.animation) {
+        if (wantsMotion(picture_))
+            fail(Failure::usage, "{}: no motion is known of plain polygons; name their --scheme", surface.cage);
+        polygons_.emplace(loaded_.cage, *loaded_.animation);
+    }
     frames_ = framesOf(args, loaded_.animation.get());
     shading_ = loadShading(picture_);
     const std::vector<dvec3> points = outlineOfAll(loaded_);
     holdCamera(picture_.camera, points, args.turntable > 0);
     for (const dvec3& p : points) bounds_.add(p);
+    if (polygons_) loaded_.dense = polygons_->at(secondsOf(frames_.front(), surface.pose));
 
     device_ = std::make_unique<Device>(DeviceDesc{.name = picture_.device});
     model_ = std::make_unique<Model>(*device_, ModelDesc{.surface = &loaded_.surface,
@@ -153,7 +177,9 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
                                                          .height = loaded_.heightMap(),
                                                          .dense = loaded_.dense ? &*loaded_.dense : nullptr,
                                                          .albedo = shading_.albedo ? &*shading_.albedo : nullptr});
-    if (loaded_.animation)
+    if (polygons_)
+        meshPoser_ = std::make_unique<MeshPoser>(*device_, *model_, *loaded_.dense, Rig());
+    else if (loaded_.animation)
         poser_ = std::make_unique<Poser>(*device_, *model_,
                                          PoserDesc{.surface = &loaded_.surface,
                                                    .rig = loaded_.animation->rig(),
@@ -176,13 +202,23 @@ RenderOptions FrameMaker::optionsAt(int frame) const {
         if (args_.turntable > 0) picture.camera.options.azimuth += 360.0 * (number - 1) / args_.turntable;
         RenderOptions options = renderOptions(picture, *device_, {bounds_.lower, bounds_.upper});
         if (poser_) options.bounds = poser_->bounds();
-        if (poser_) fitDepth(options.camera, options.bounds);
+        if (meshPoser_) options.bounds = polygonBounds_;
+        if (poser_ || meshPoser_) fitDepth(options.camera, options.bounds);
         return options;
     };
     RenderOptions options = at(frame);
     options.cameraBefore = at(frame - 1).camera;
     if (shading_.environment) options.lighting.environment = &*shading_.environment;
     return options;
+}
+
+void FrameMaker::posePolygons(int frame, DrawnFrame& drawn) {
+    const double start = secondsNow();
+    const DenseMesh mesh = polygons_->at(secondsOf(frame, args_.surface.pose));
+    drawn.uploadedBytes = meshPoser_->upload(mesh.positions, mesh.normals);
+    drawn.poseMs = 1e3 * (secondsNow() - start);
+    polygonBounds_ = {};
+    for (const vec3& p : mesh.positions) polygonBounds_.add(dvec3(p));
 }
 
 DrawnFrame FrameMaker::draw(int frame) {
@@ -194,6 +230,7 @@ DrawnFrame FrameMaker::draw(int frame) {
         drawn.uploadedBytes = poser_->stats().uploadedBytes;
         drawn.poseMs = poser_->stats().milliseconds;
     }
+    if (meshPoser_) posePolygons(frame, drawn);
     drawn.picture = renderer_->render(*model_, optionsAt(frame));
     return drawn;
 }

@@ -88,6 +88,10 @@ void addPose(CLI::App& app, PoseArgs& args) {
     listed(addWord(app, "--interpolation", args.interpolation, "between the keys of a cache: linear or step (linear)",
                    {"linear", "step"}),
            "HOW", group);
+    app.add_flag("--cache-frames", args.countsCacheFrames,
+                 "frame k of a .pc2 or .mdd, from 0, is frame k, whatever times it has")
+        ->needs(cache)
+        ->group(group);
     listed(app.add_option("--fps", args.fps, "frames a second (24)")->check(numberIn(1e-3, 1e4)), "FPS", group);
 }
 
@@ -95,7 +99,9 @@ void addPose(CLI::App& app, PoseArgs& args) {
 
 Warn Output::warn() const {
     if (isQuiet) return [](const std::string&) {};
-    return warnOnStderr;
+    return [lines = warned](const std::string& line) {
+        if (lines->insert(line).second) warnOnStderr(line);
+    };
 }
 
 void addOutput(CLI::App& app, Output& output) {
@@ -279,20 +285,6 @@ void checkValidation(const Device& device) {
     if (count > 0) fail(Failure::internal, "the Vulkan validation layer has {} complaints", count);
 }
 
-std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output) {
-    if (args.isStill()) return nullptr;
-    std::unique_ptr<Animation> animation;
-    if (!args.cache.empty()) {
-        const auto interpolation = args.interpolation == "step" ? Interpolation::step : Interpolation::linear;
-        animation = readPointCache(args.cache, cage, {.fps = args.fps, .interpolation = interpolation}, output.warn());
-    } else if (!args.skin.empty()) {
-        animation = readSkin(args.skin, cage, {.clip = args.clip, .bindsNearest = args.bindsNearest}, output.warn());
-    } else {
-        animation = stillPose(cage);
-    }
-    return args.deform.empty() ? std::move(animation) : deform(std::move(animation), cage, args.deform);
-}
-
 namespace {
 
 constexpr std::pair<const char*, MapFormat> kMapFormats[] = {{"float", MapFormat::real},
@@ -306,15 +298,6 @@ std::optional<MapFormat> mapFormatOf(const std::string& word) {
     for (const auto& [name, format] : kMapFormats)
         if (word == name) return format;
     return {};
-}
-
-/// Moves the cage to the pose of --time.
-void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path) {
-    if (args.time && !loaded.animation)
-        fail(Failure::usage, "{}: --time asks for a pose; say what moves the cage: --cache, --skin or --deform", path);
-    if (!loaded.animation || args.staysAtRest) return;
-    loaded.restPositions = std::move(loaded.cage.positions);
-    loaded.cage.positions = posedPositions(loaded.animation->rig(), loaded.animation->pose(args.time.value_or(0)));
 }
 
 } // namespace

@@ -1,7 +1,9 @@
 // The options that verbs share, with the same words in each, and what they turn into.
 #pragma once
 
+#include <memory>
 #include <optional>
+#include <set>
 
 #include <CLI/CLI.hpp>
 
@@ -14,13 +16,14 @@ struct Output {
     bool isJson = false, isQuiet = false, isVerbose = false;
     ShowProgress progress = ShowProgress::automatic;
 
-    [[nodiscard]] Warn warn() const; ///< silent with -q
+    [[nodiscard]] Warn warn() const; ///< silent with -q; a line that was printed is not printed again
+    std::shared_ptr<std::set<std::string>> warned = std::make_shared<std::set<std::string>>();
 };
 
 /// What moves the cage.
 struct PoseArgs {
     std::string cache, skin, clip, deform;
-    bool bindsNearest = false;
+    bool bindsNearest = false, countsCacheFrames = false;
     std::string interpolation = "linear";
     double fps = 24;
     std::optional<double> time; ///< seconds; default 0
@@ -121,6 +124,20 @@ struct Loaded {
 };
 /// What moves the cage, or null.
 std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output);
+/// Moves the cage to the pose of --time, its normals with it.
+void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path);
+/// Plain polygons that move: posed by the processor.
+class MovingPolygons {
+public:
+    /// The animation outlives it.
+    MovingPolygons(Cage rest, const Animation& animation);
+    /// Vertices and triangles have the same order at all times.
+    [[nodiscard]] DenseMesh at(double seconds) const;
+
+private:
+    Cage rest_;
+    const Animation* animation_;
+};
 /// The cage is in the pose of PoseArgs::time, unless it stays at rest. `albedo`: a map besides that of the heights
 /// that needs texture coordinates.
 Loaded load(const SurfaceArgs& args, const Output& output, const std::string& albedo = "");

@@ -58,7 +58,8 @@ struct Cage {
 ///
 /// From glTF 2.0 it takes the triangles of all meshes in the file's scene, where they stand in the world when no
 /// animation moves them. Vertices of one node with the same bits of position become one, so that seams and hard edges
-/// are no boundaries; a vertex's texture coordinates and normals stay its own. A part is a primitive, named after its
+/// are no boundaries; a vertex's texture coordinates and normals stay its own. Triangles of
+/// meshes without normals are flat: each has one of its own. A part is a primitive, named after its
 /// node (or its mesh) and its material.
 Cage readCage(const std::string& path, const Warn& warn = warnOnStderr);
 

@@ -14,16 +14,17 @@ namespace relief {
 
 constexpr std::uint32_t kMostGltfInfluences = 8; ///< the largest weights of a vertex, where a file has more
 
-/// One draw: vertices with one of everything, and the triangles between them.
+/// One draw: the vertices that its triangles use, with one of everything, and the triangles between them.
 struct GltfPrimitive {
     std::vector<vec3> positions;          ///< in the space of the mesh
     std::vector<vec3> normals;            ///< one a vertex, or empty
     std::vector<vec2> texCoords;          ///< TEXCOORD_0 with t turned to run up; one a vertex, or empty
-    std::vector<std::uint32_t> triangles; ///< three vertices each; none for points and lines
+    std::vector<std::uint32_t> triangles; ///< three vertices each; none where it makes no surface
     std::vector<vec3> offsets;            ///< of morph targets, one after the other: one a vertex each
     std::uint32_t influenceCount = 0;     ///< joints a vertex; 0: the primitive has none
     std::vector<std::uint32_t> joints;    ///< influenceCount a vertex, into the joints of a skin
     std::vector<float> weights;           ///< as joints; those of a vertex add up to 1
+    std::uint32_t largestJoint = 0, largestJointVertex = 0; ///< and the vertex of the file that it moves
     std::string material;
 };
 
@@ -73,18 +74,21 @@ struct GltfClip {
 
 struct GltfScene {
     std::vector<GltfNode> nodes;
-    std::vector<std::uint32_t> order;     ///< all nodes, parents before their children
+    std::vector<std::uint32_t> order;     ///< the nodes in use, parents before their children
     std::vector<std::uint32_t> meshNodes; ///< those of the file's scene that have a mesh, at least one; rising
     std::vector<GltfMesh> meshes;
     std::vector<GltfSkin> skins;
-    std::vector<GltfClip> clips;
+    std::optional<GltfClip> clip; ///< the one that was asked for
 };
 
-/// Reads a .gltf with the buffers beside it, or a .glb: by its first bytes, whatever its name. Images are never looked
-/// at. Throws Failure::file when the file or a buffer cannot be read; Failure::input, naming the element, for anything
-/// that is not glTF 2.0, a scene without a mesh, buffers outside the file's folder, and extensions without which the
-/// file cannot be understood.
-GltfScene readGltf(const std::string& path, const Warn& warn);
+/// Reads a .gltf with the buffers beside it, or a .glb: by its first bytes, whatever its name. Of the animations it
+/// reads `clip`, a name or a number ("": the first, if there is one), or none. What the file's scene does not need is
+/// never looked at (images, materials, other animations, meshes that are not shown), so that nothing in it is a fault;
+/// its nodes, meshes and skins stay empty.
+/// Throws Failure::file when the file or a buffer cannot be read; Failure::input, naming the element, for anything that
+/// is not glTF 2.0, a scene without a mesh, buffers outside the file's folder, and extensions without which the file
+/// cannot be understood.
+GltfScene readGltf(const std::string& path, const std::optional<std::string>& clip, const Warn& warn);
 
 /// Where nodes stand when nothing moves them.
 std::vector<GltfTransform> restTransforms(const GltfScene& scene);

@@ -7,8 +7,8 @@
 namespace relief {
 namespace {
 
-/// Three numbers by their bits: what is at one place, or one place's texture coordinates.
-using Key = std::array<std::uint32_t, 3>;
+/// Numbers by their bits: what is at one place (three of them), or one place's texture coordinates or normal.
+using Key = std::array<std::uint32_t, 4>;
 
 struct KeyHash {
     std::size_t operator()(const Key& key) const {
@@ -29,16 +29,17 @@ glm::dmat3 normalMatrix(const glm::dmat4& matrix, double determinant) {
     return (determinant < 0 ? -1.0 : 1.0) * glm::dmat3(glm::cross(y, z), glm::cross(z, x), glm::cross(x, y));
 }
 
+vec3 unitOrUp(const dvec3& n) { return glm::dot(n, n) > 0 ? vec3(glm::normalize(n)) : vec3(0, 1, 0); }
+
 class CageBuilder {
 public:
-    CageBuilder(const GltfScene& scene, bool takesTexCoords, bool takesNormals)
-        : scene_(scene), takesTexCoords_(takesTexCoords), takesNormals_(takesNormals),
-          worlds_(worldMatrices(scene, restTransforms(scene))) {}
+    CageBuilder(const GltfScene& scene, bool takesTexCoords)
+        : scene_(scene), takesTexCoords_(takesTexCoords), worlds_(worldMatrices(scene, restTransforms(scene))) {}
 
     void addNode(std::uint32_t node) {
         node_ = node;
         joints_ = jointMatrices(scene_, node, worlds_);
-        places_.clear(), texCoords_.clear(); // separate objects stay separate where they touch
+        places_.clear(), texCoords_.clear(), normals_.clear(); // separate objects stay separate where they touch
         for (const GltfPrimitive& primitive : scene_.meshes[std::size_t(scene_.nodes[node].mesh)].primitives)
             addPrimitive(primitive);
     }
@@ -48,7 +49,8 @@ public:
 
 private:
     struct Corner {
-        std::uint32_t position = 0, texCoord = 0, normal = 0;
+        std::uint32_t position = 0, texCoord = 0;
+        std::optional<std::uint32_t> normal; ///< none: that of the triangle (section 3.7.2.1)
         bool isMirrored = false;
     };
 
@@ -58,10 +60,10 @@ private:
     void addTriangle(std::array<Corner, 3> corners);
 
     const GltfScene& scene_;
-    bool takesTexCoords_, takesNormals_;
+    bool takesTexCoords_;
     std::vector<glm::dmat4> worlds_, joints_;
     std::uint32_t node_ = 0;
-    std::unordered_map<Key, std::uint32_t, KeyHash> places_, texCoords_; ///< of this node
+    std::unordered_map<Key, std::uint32_t, KeyHash> places_, texCoords_, normals_; ///< of this node
 };
 
 void CageBuilder::addPrimitive(const GltfPrimitive& primitive) {
@@ -98,20 +100,22 @@ CageBuilder::Corner CageBuilder::addVertex(const GltfPrimitive& primitive, std::
     const dvec3 morphed = morphedPosition(primitive, vertex, scene_.nodes[node_].weights);
     const vec3 p = withoutNegativeZeros(vec3(dvec3(matrix * glm::dvec4(morphed, 1))));
     const auto [place, isNewPlace] =
-        places_.try_emplace({bitsOf(p.x), bitsOf(p.y), bitsOf(p.z)}, std::uint32_t(cage.positions.size()));
+        places_.try_emplace({bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), 0}, std::uint32_t(cage.positions.size()));
     if (isNewPlace) cage.positions.push_back(p);
     Corner corner{.position = place->second, .isMirrored = determinant < 0};
     if (takesTexCoords_) {
         const vec2& st = primitive.texCoords[vertex];
-        const auto [texCoord, isNewTexCoord] =
-            texCoords_.try_emplace({corner.position, bitsOf(st.x), bitsOf(st.y)}, std::uint32_t(cage.texCoords.size()));
+        const auto [texCoord, isNewTexCoord] = texCoords_.try_emplace({corner.position, bitsOf(st.x), bitsOf(st.y), 0},
+                                                                      std::uint32_t(cage.texCoords.size()));
         if (isNewTexCoord) cage.texCoords.push_back(st);
         corner.texCoord = texCoord->second;
     }
-    if (takesNormals_) {
-        const dvec3 n = normalMatrix(matrix, determinant) * dvec3(primitive.normals[vertex]);
-        corner.normal = std::uint32_t(cage.normals.size());
-        cage.normals.push_back(glm::dot(n, n) > 0 ? vec3(glm::normalize(n)) : vec3(0, 1, 0));
+    if (!primitive.normals.empty()) {
+        const vec3 n = unitOrUp(normalMatrix(matrix, determinant) * dvec3(primitive.normals[vertex]));
+        const auto [normal, isNewNormal] = normals_.try_emplace(
+            {corner.position, bitsOf(n.x), bitsOf(n.y), bitsOf(n.z)}, std::uint32_t(cage.normals.size()));
+        if (isNewNormal) cage.normals.push_back(n);
+        corner.normal = normal->second;
     }
     return corner;
 }
@@ -127,8 +131,12 @@ void CageBuilder::addTriangle(std::array<Corner, 3> corners) {
     for (const Corner& corner : corners) {
         cage.corners.push_back(corner.position);
         if (takesTexCoords_) cage.texCorners.push_back(corner.texCoord);
-        if (takesNormals_) cage.normalCorners.push_back(corner.normal);
+        if (corner.normal) cage.normalCorners.push_back(*corner.normal);
     }
+    if (a.normal) return;
+    const auto at = [&](std::size_t k) { return dvec3(cage.positions[corners[k].position]); };
+    cage.normalCorners.insert(cage.normalCorners.end(), 3, std::uint32_t(cage.normals.size()));
+    cage.normals.push_back(unitOrUp(glm::cross(at(1) - at(0), at(2) - at(0))));
 }
 
 /// How many of the scene's primitives with triangles have something.
@@ -144,14 +152,13 @@ std::size_t countPrimitives(const GltfScene& scene, const Has& has) {
 } // namespace
 
 Cage readGltfCage(const std::string& path, const Warn& warn) {
-    const GltfScene scene = readGltf(path, warn);
+    const GltfScene scene = readGltf(path, {}, warn);
     const std::size_t all = countPrimitives(scene, [](const GltfPrimitive&) { return true; });
     const std::size_t textured = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.texCoords.empty(); });
-    const std::size_t shaded = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.normals.empty(); });
     if (textured > 0 && textured < all)
         warn(fmt::format("{}: only some of its meshes have texture coordinates; they are ignored", path));
 
-    CageBuilder builder(scene, all > 0 && textured == all, all > 0 && shaded == all);
+    CageBuilder builder(scene, all > 0 && textured == all);
     for (const std::uint32_t node : scene.meshNodes) builder.addNode(node);
     Cage& cage = builder.cage;
     if (builder.degenerateCount > 0)

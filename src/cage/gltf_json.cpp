@@ -1,8 +1,7 @@
+#include "cage/gltf_json.h"
+
 #include <algorithm>
 #include <limits>
-#include <optional>
-
-#include "cage/gltf_json.h"
 
 namespace relief {
 namespace {
@@ -10,188 +9,17 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::uint64_t kLongest = 512ull << 20;
-constexpr int kDeepest = 100; // brackets in brackets: some readers walk them recursively
+constexpr int kDeepest = 100; // brackets in brackets: they are parsed recursively
 
-/// What a member must be. tinygltf takes one of another type as missing and cuts numbers to 32 bits.
-enum class Kind { integer, size, integers, numbers, boolean, string, object, objects, either };
-
-struct MemberKind {
-    std::string_view name;
-    Kind kind;
-};
-
-constexpr MemberKind kMemberKinds[] = {
-    {"accessors", Kind::objects},
-    {"animations", Kind::objects},
-    {"asset", Kind::object},
-    {"attributes", Kind::object},
-    {"buffer", Kind::integer},
-    {"bufferView", Kind::integer},
-    {"bufferViews", Kind::objects},
-    {"buffers", Kind::objects},
-    {"byteLength", Kind::size},
-    {"byteOffset", Kind::size},
-    {"byteStride", Kind::integer},
-    {"channels", Kind::objects},
-    {"children", Kind::integers},
-    {"componentType", Kind::integer},
-    {"count", Kind::integer},
-    {"indices", Kind::either}, // of a primitive; in sparse accessors an object
-    {"input", Kind::integer},
-    {"interpolation", Kind::string},
-    {"inverseBindMatrices", Kind::integer},
-    {"joints", Kind::integers},
-    {"material", Kind::integer},
-    {"materials", Kind::objects},
-    {"matrix", Kind::numbers},
-    {"mesh", Kind::integer},
-    {"meshes", Kind::objects},
-    {"mode", Kind::integer},
-    {"name", Kind::string},
-    {"node", Kind::integer},
-    {"nodes", Kind::either}, // of a scene; at the top objects
-    {"normalized", Kind::boolean},
-    {"output", Kind::integer},
-    {"path", Kind::string},
-    {"primitives", Kind::objects},
-    {"rotation", Kind::numbers},
-    {"sampler", Kind::integer},
-    {"samplers", Kind::objects},
-    {"scale", Kind::numbers},
-    {"scene", Kind::integer},
-    {"scenes", Kind::objects},
-    {"skin", Kind::integer},
-    {"skins", Kind::objects},
-    {"sparse", Kind::object},
-    {"target", Kind::either}, // of a channel an object; of buffer views {"targets",
-                              // Kind::objects},
-    {"translation", Kind::numbers},
-    {"type", Kind::string},
-    {"uri", Kind::string},
-    {"values", Kind::object},
-    {"version", Kind::string},
-    {"weights", Kind::numbers},
-};
-
-struct RequiredMember {
-    std::string_view parent, name;
-};
-
-constexpr RequiredMember kRequiredMembers[] = {
-    {"accessors", "componentType"},
-    {"accessors", "count"},
-    {"accessors", "type"},
-    {"asset", "version"},
-    {"bufferViews", "buffer"},
-    {"bufferViews", "byteLength"},
-    {"buffers", "byteLength"},
-    {"channels", "sampler"},
-    {"channels", "target"},
-    {"primitives", "attributes"},
-    {"samplers", "input"},
-    {"samplers", "output"},
-    {"skins", "joints"},
-    {"sparse", "count"},
-    {"sparse", "indices"},
-    {"sparse", "values"},
-    {"target", "path"},
-};
-
-/// Members of the file's object that say something about geometry.
-constexpr std::string_view kTopMembers[] = {
-    "accessors", "animations", "asset", "bufferViews", "buffers", "extensionsRequired", "extensionsUsed", "materials",
-    "meshes",    "nodes",      "scene", "scenes",      "skins"};
-
-bool isSize(const Json& value) {
-    return value.is_number_unsigned() && value.get<std::uint64_t>() <= std::numeric_limits<std::uint32_t>::max();
+bool isWhole(const Json& value, std::uint64_t largest) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() <= largest;
 }
 
-bool isInteger(const Json& value) {
-    return value.is_number_unsigned() && value.get<std::uint64_t>() <= std::numeric_limits<std::int32_t>::max();
-}
+bool isIndex(const Json& value) { return isWhole(value, std::numeric_limits<std::int32_t>::max()); }
 
 template <typename Is>
-bool areAll(const Json& values, const Is& is) {
-    return std::all_of(values.begin(), values.end(), is);
-}
-
-bool isNumber(const Json& value) { return value.is_number(); }
-bool isObject(const Json& value) { return value.is_object(); }
-bool areIntegers(const Json& value) { return value.is_array() && areAll(value, isInteger); }
-bool areObjects(const Json& value) { return value.is_array() && areAll(value, isObject); }
-
-bool isOfKind(const Json& value, Kind kind) {
-    switch (kind) {
-    case Kind::integer: return isInteger(value);
-    case Kind::size: return isSize(value);
-    case Kind::integers: return areIntegers(value);
-    case Kind::numbers: return value.is_array() && areAll(value, isNumber);
-    case Kind::boolean: return value.is_boolean();
-    case Kind::string: return value.is_string();
-    case Kind::object: return value.is_object();
-    case Kind::objects: return areObjects(value);
-    case Kind::either: return isInteger(value) || areIntegers(value) || isObject(value) || areObjects(value);
-    }
-    return false;
-}
-
-const char* wordsFor(Kind kind) {
-    switch (kind) {
-    case Kind::integer: return "a whole number from 0 to 2147483647";
-    case Kind::size: return "a whole number from 0 to 4294967295";
-    case Kind::integers: return "a list of whole numbers from 0 to 2147483647";
-    case Kind::numbers: return "a list of numbers";
-    case Kind::boolean: return "true or false";
-    case Kind::string: return "a string";
-    case Kind::object: return "an object";
-    case Kind::objects: return "a list of objects";
-    case Kind::either: return "whole numbers from 0 to 2147483647, or objects";
-    }
-    return "";
-}
-
-std::optional<Kind> kindOf(std::string_view name) {
-    for (const MemberKind& member : kMemberKinds)
-        if (member.name == name) return member.kind;
-    return std::nullopt;
-}
-
-void checkRequired(const Json& object, std::string_view parent, const std::string& place, const std::string& path) {
-    for (const RequiredMember& member : kRequiredMembers)
-        if (member.parent == parent && !object.contains(member.name))
-            fail(Failure::input, "{}: {} has no {}", path, place, member.name);
-}
-
-/// `name` is the member that holds the value, or that holds the list that holds it.
-void checkMembers(const Json& value, std::string_view name, const std::string& place, const std::string& path) {
-    if (value.is_array())
-        for (std::size_t i = 0; i < value.size() && value[i].is_structured(); ++i)
-            checkMembers(value[i], name, fmt::format("{}/{}", place, i), path);
-    if (!value.is_object()) return;
-    checkRequired(value, name, place, path);
-    const bool isOfAttributes = name == "attributes" || name == "targets"; // named by their meanings
-    for (const auto& [key, member] : value.items()) {
-        const std::string memberPlace = place.empty() ? key : fmt::format("{}/{}", place, printable(key));
-        const std::optional<Kind> kind = isOfAttributes ? Kind::integer : kindOf(key);
-        if (kind && !isOfKind(member, *kind))
-            fail(Failure::input, "{}: {} must be {}", path, memberPlace, wordsFor(*kind));
-        checkMembers(member, key, memberPlace, path);
-    }
-}
-
-void keepTopMembers(Json& json) {
-    for (auto member = json.begin(); member != json.end();) {
-        const bool isKept =
-            std::find(std::begin(kTopMembers), std::end(kTopMembers), member.key()) != std::end(kTopMembers);
-        member = isKept ? std::next(member) : json.erase(member);
-    }
-}
-
-/// What others may fill as they like.
-void dropForeign(Json& value) {
-    if (value.is_object()) value.erase("extras"), value.erase("extensions");
-    for (Json& member : value)
-        if (member.is_structured()) dropForeign(member);
+bool isListOf(const Json& value, const Is& is) {
+    return value.is_array() && std::all_of(value.begin(), value.end(), is);
 }
 
 void checkDepth(std::string_view text, const std::string& path) {
@@ -211,6 +39,87 @@ void checkDepth(std::string_view text, const std::string& path) {
 /// The message without the library's own name for it.
 std::string_view reasonOf(std::string_view error) { return error.substr(error.find(']') + 1); }
 
+/// glTF 1.0 has objects where 2.0 has lists, and may leave out "asset".
+void checkVersion(const Json& json, const std::string& path) {
+    constexpr const char* kNeed = "{}: glTF of version {}; relief reads 2.0, so export it again as glTF 2.0";
+    const auto isDictionary = [&](const char* name) { return json.contains(name) && json[name].is_object(); };
+    const bool isFirst = isDictionary("accessors") || isDictionary("meshes");
+    if (!json.contains("asset") && !isFirst) fail(Failure::input, "{}: has no asset, so it is no glTF", path);
+    const GltfElement root(json, path, "");
+    const std::optional<GltfElement> asset = root.object("asset");
+    const std::string version = asset && asset->has("version") ? asset->text("version") : isFirst ? "1.0" : "";
+    if (version.empty()) fail(Failure::input, "{}: asset has no version; relief reads glTF 2.0", path);
+    if (!version.starts_with("2.")) fail(Failure::input, kNeed, path, printable(version));
+}
+
+// --- extensions --------------------------------------------------------------------------------------------------
+
+enum class ExtensionKind {
+    read,     ///< relief reads it
+    looks,    ///< it changes nothing about shape and motion
+    geometry, ///< without it the file has another shape or motion
+};
+
+struct KnownExtension {
+    std::string_view beginning; ///< of the name
+    ExtensionKind kind;
+    const char* loss = ""; ///< what is missing where relief ignores it
+};
+
+/// The first one whose beginning fits holds; names that no line has are of a kind that is not known.
+constexpr KnownExtension kExtensions[] = {
+    {"KHR_mesh_quantization", ExtensionKind::read},
+    {"KHR_draco_mesh_compression", ExtensionKind::read},
+    {"EXT_meshopt_compression", ExtensionKind::read},
+    {"KHR_materials_", ExtensionKind::looks},
+    {"KHR_texture_", ExtensionKind::looks},
+    {"KHR_lights_", ExtensionKind::looks},
+    {"KHR_xmp", ExtensionKind::looks},
+    {"KHR_audio", ExtensionKind::looks},
+    {"EXT_texture_", ExtensionKind::looks},
+    {"EXT_lights_", ExtensionKind::looks},
+    {"MSFT_texture_", ExtensionKind::looks},
+    {"MSFT_packing_", ExtensionKind::looks},
+    {"EXT_mesh_gpu_instancing", ExtensionKind::geometry, "each mesh is drawn once, without its further instances"},
+    {"KHR_animation_pointer", ExtensionKind::geometry, "what it animates stands still"},
+    {"KHR_node_visibility", ExtensionKind::geometry, "hidden nodes are drawn"},
+    {"KHR_interactivity", ExtensionKind::geometry, "nothing behaves"},
+    {"KHR_physics_", ExtensionKind::geometry, "nothing is simulated"},
+    {"KHR_gaussian_splatting", ExtensionKind::geometry, "splats are not drawn"},
+    {"MSFT_physics", ExtensionKind::geometry, "nothing is simulated"},
+    {"OMI_physics_", ExtensionKind::geometry, "nothing is simulated"},
+    {"MPEG_accessor_timed", ExtensionKind::geometry, "data that change with time stand still"},
+    {"MPEG_mesh_linking", ExtensionKind::geometry, "linked meshes do not follow"},
+    {"VRMC_springBone", ExtensionKind::geometry, "hair and clothes do not swing"},
+    {"VRMC_node_constraint", ExtensionKind::geometry, "constrained nodes do not follow"},
+    {"CESIUM_RTC", ExtensionKind::geometry, "the object stands at the origin"},
+};
+
+const KnownExtension* findExtension(std::string_view name) {
+    const auto* found = std::find_if(std::begin(kExtensions), std::end(kExtensions),
+                                     [&](const KnownExtension& e) { return name.starts_with(e.beginning); });
+    return found == std::end(kExtensions) ? nullptr : found;
+}
+
+void checkExtensions(const Json& json, const std::string& path, const Warn& warn) {
+    const auto each = [&](const char* list, const auto& act) {
+        if (!json.contains(list) || !json[list].is_array()) return;
+        for (const Json& name : json[list])
+            if (name.is_string()) act(name.get_ref<const std::string&>());
+    };
+    each("extensionsRequired", [&](const std::string& name) {
+        const KnownExtension* known = findExtension(name);
+        if (known == nullptr || known->kind == ExtensionKind::geometry)
+            fail(Failure::input, "{}: needs the extension {}, which relief does not read; export it without", path,
+                 printable(name));
+    });
+    each("extensionsUsed", [&](const std::string& name) {
+        const KnownExtension* known = findExtension(name);
+        if (known != nullptr && known->kind == ExtensionKind::geometry)
+            warn(fmt::format("{}: the extension {} is ignored: {}", path, printable(name), known->loss));
+    });
+}
+
 } // namespace
 
 std::string printable(std::string_view text) {
@@ -222,7 +131,105 @@ std::string printable(std::string_view text) {
     return text.size() > kLongestText ? line + "..." : line;
 }
 
-Json parseGltfJson(std::string_view text, const std::string& path) {
+// --- one element -------------------------------------------------------------------------------------------------
+
+GltfElement::GltfElement(const Json& value, const std::string& path, std::string place)
+    : value_(&value), path_(&path), place_(std::move(place)) {
+    if (!value.is_object()) relief::fail(Failure::input, "{}: {} must be an object", path, place_);
+}
+
+const Json* GltfElement::member(std::string_view name) const {
+    const auto found = value_->find(name);
+    return found == value_->end() ? nullptr : &*found;
+}
+
+std::string GltfElement::placeOf(std::string_view name) const {
+    return place_.empty() ? std::string(name) : fmt::format("{}/{}", place_, name);
+}
+
+void GltfElement::failKind(std::string_view name, const char* kind) const {
+    relief::fail(Failure::input, "{}: {} must be {}", *path_, placeOf(name), kind);
+}
+
+bool GltfElement::has(std::string_view name) const { return member(name) != nullptr; }
+
+const GltfElement& GltfElement::need(std::string_view name) const {
+    if (!has(name)) relief::fail(Failure::input, "{}: {} has no {}", *path_, place_, name);
+    return *this;
+}
+
+std::optional<std::uint32_t> GltfElement::integer(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return std::nullopt;
+    if (!isIndex(*value)) failKind(name, "a whole number from 0 to 2147483647");
+    return value->get<std::uint32_t>();
+}
+
+std::uint64_t GltfElement::size(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return 0;
+    if (!isWhole(*value, std::numeric_limits<std::uint32_t>::max()))
+        failKind(name, "a whole number from 0 to 4294967295");
+    return value->get<std::uint64_t>();
+}
+
+bool GltfElement::boolean(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return false;
+    if (!value->is_boolean()) failKind(name, "true or false");
+    return value->get<bool>();
+}
+
+std::string GltfElement::text(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return "";
+    if (!value->is_string()) failKind(name, "a string");
+    return value->get<std::string>();
+}
+
+std::vector<double> GltfElement::numbers(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return {};
+    if (!isListOf(*value, [](const Json& number) { return number.is_number(); })) failKind(name, "a list of numbers");
+    return value->get<std::vector<double>>();
+}
+
+std::vector<std::uint32_t> GltfElement::integers(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return {};
+    if (!isListOf(*value, isIndex)) failKind(name, "a list of whole numbers from 0 to 2147483647");
+    return value->get<std::vector<std::uint32_t>>();
+}
+
+std::optional<GltfElement> GltfElement::object(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return std::nullopt;
+    return GltfElement(*value, *path_, placeOf(name));
+}
+
+std::size_t GltfElement::count(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return 0;
+    if (!value->is_array()) failKind(name, "a list of objects");
+    return value->size();
+}
+
+GltfElement GltfElement::at(std::string_view name, std::size_t index) const {
+    return {(*member(name))[index], *path_, fmt::format("{}/{}", placeOf(name), index)};
+}
+
+std::string GltfElement::name() const {
+    const Json* value = member("name");
+    return value != nullptr && value->is_string() ? value->get<std::string>() : "";
+}
+
+std::optional<GltfElement> GltfElement::extension(std::string_view name) const {
+    const Json* all = member("extensions");
+    if (all == nullptr || !all->is_object()) return std::nullopt;
+    return GltfElement(*all, *path_, placeOf("extensions")).object(name);
+}
+
+Json parseGltfJson(std::string_view text, const std::string& path, const Warn& warn) {
     if (text.size() > kLongest)
         fail(Failure::input, "{}: {} of JSON; up to {} are read", path, humanBytes(text.size()), humanBytes(kLongest));
     checkDepth(text, path);
@@ -232,10 +239,9 @@ Json parseGltfJson(std::string_view text, const std::string& path) {
     } catch (const Json::exception& error) {
         fail(Failure::input, "{}: no valid JSON:{}", path, printable(reasonOf(error.what())));
     }
-    if (!json.is_object() || !json.contains("asset")) fail(Failure::input, "{}: has no asset, so it is no glTF", path);
-    keepTopMembers(json);
-    dropForeign(json);
-    checkMembers(json, "", "", path);
+    if (!json.is_object()) fail(Failure::input, "{}: has no asset, so it is no glTF", path);
+    checkVersion(json, path);
+    checkExtensions(json, path, warn);
     return json;
 }
 

@@ -286,6 +286,10 @@ TEST(DeformerErrors, nameDeformerValueAndTimeOfValuesThatMakeNoSense) {
     refuse("squash(amount=t)", 1, {"amount of squash is 1 at t = 1 seconds", "below 1"});
     refuse("translate(x=10^t)", 39, {"point 0", "t = 39 seconds", "smaller"});
     refuse("scale(x=10^300) scale(x=10^300)", 0, {"point 0", "t = 0 seconds"});
+    for (const char* text : {"translate(x=1e30)", "scale(x=1e20, y=1e20, z=1e20)", "wave(amplitude=1e38)",
+                             "wave(wavelength=1e-308)", "taper(amount=1e9)", "squash(amount=-1e12)"})
+        refuse(text, 0.1, {"goes to (", "t = 0.1 seconds; use smaller values"});
+    EXPECT_NO_THROW((void)deform(stillPose(cage), cage, "translate(x=1000) scale(y=1000)")->pose(0));
     EXPECT_NO_THROW((void)deform(stillPose(cage), cage, "twist(angle=1/t)")->pose(1));
     EXPECT_NO_THROW((void)deform(stillPose(cage), cage, "squash(amount=t)")->pose(0.99));
 }

@@ -125,8 +125,9 @@ TEST(PointCacheErrors, tellFilesThatAreTooShortOrTooLong) {
 }
 
 TEST(PointCacheErrors, tellRatesAndStartsThatMakeNoTimes) {
-    for (const float rate : {0.0f, -0.0f, -1.0f, kInfinity, -kInfinity, std::nanf("")})
-        expectRefused(pc2().with(24, word(rate, kLittle)), {"sample rate is " + fmt::format("{}", rate), "above 0"});
+    for (const float rate : {0.0f, -0.0f, -1.0f, 1e-30f, 1e-4f, 1e30f, kInfinity, -kInfinity, std::nanf("")})
+        expectRefused(pc2().with(24, word(rate, kLittle)),
+                      {"sample rate is " + fmt::format("{}", rate), "0.001 to 1000", "--cache-frames"});
     for (const float start : {kInfinity, -kInfinity, std::nanf("")})
         expectRefused(pc2().with(20, word(start, kLittle)), {"start frame is " + fmt::format("{}", start), "finite"});
     // So far out that doubles do not tell a frame from the next.
@@ -139,7 +140,7 @@ TEST(PointCacheErrors, tellTimesThatDoNotRise) {
     expectRefused(mdd().with(16, word(-1.0f, kBig)), {"frame 2", "-1 seconds", "times must rise"});
     for (const float time : {kInfinity, -kInfinity, std::nanf("")})
         expectRefused(mdd().with(12, word(time, kBig)), {"frame 1", fmt::format("{} seconds", time), "finite"});
-    expectRefused(mdd().with(8, std::string(12, '\0')), {"frame 1", "0 seconds", "times must rise"});
+    expectRefused(mdd().with(8, std::string(12, '\0')), {"frame 1", "0 seconds", "times must rise", "--cache-frames"});
 }
 
 TEST(PointCacheErrors, nameFrameAndPointOfPositionsThatAreNotFinite) {

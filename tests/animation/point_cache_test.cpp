@@ -190,6 +190,25 @@ TEST(PointCache, refusesOtherNamesAndRates) {
 
 // --- writing -----------------------------------------------------------------------------------------------------
 
+/// Times that are all 0, or otherwise useless, do not matter then.
+TEST(PointCache, takesFrameKAsFrameKWhereItIsAsked) {
+    const TemporaryFolder folder;
+    for (const std::string name : {"a.pc2", "a.mdd"}) {
+        const std::string path = folder / name;
+        writeFrames(path, cube(), 3, 10);
+        std::string bytes = readFile(path);
+        if (name == "a.mdd")
+            bytes.replace(8, 12, std::string(12, '\0'));
+        else
+            bytes.replace(20, 8, word(std::nanf(""), std::endian::little) + word(1e-30f, std::endian::little));
+        putFile(path, bytes);
+        const auto animation = readQuietly(path, cube(), {.fps = 25, .countsFrames = true});
+        EXPECT_EQ(animation->keyRange(), dvec2(0, 2 / 25.0)) << name;
+        for (int k = 0; k < 3; ++k)
+            EXPECT_TRUE(haveSameBits(animation->pose(k / 25.0).positions, movedPoints(cube(), 10 + k))) << name << k;
+    }
+}
+
 TEST(PointCacheWriting, leavesNothingBehindWhenItFails) {
     const TemporaryFolder folder;
     const Cage cage = cube();

@@ -102,7 +102,10 @@ TEST_F(Animate, turnsOnceAround) {
 /// The torus on two joints, of which the second one turns by 60 degrees within a second.
 GltfFile skinnedTorus(const Cage& cage) {
     GltfFile file;
-    file.addMesh(cage.positions, {0, 1, 2});
+    std::vector<std::uint32_t> triangles;
+    for (std::size_t i = 0; i < cage.corners.size(); i += 4)
+        for (const std::size_t k : {0, 1, 2, 0, 2, 3}) triangles.push_back(cage.corners[i + k]);
+    file.addMesh(cage.positions, triangles);
     std::vector<std::uint8_t> joints;
     std::vector<vec4> weights;
     for (const vec3& p : cage.positions) {

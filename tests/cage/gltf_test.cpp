@@ -263,9 +263,10 @@ TEST(GltfCage, pointsAndLinesAreNoSurface) {
     file.addNode({{"mesh", 1}});
     Warnings warnings;
     EXPECT_EQ(readFileOf(file, warnings.warn()).faceCount(), 1u);
-    EXPECT_TRUE(warnings.has("meshes/1/primitives/0: points or lines"));
+    EXPECT_TRUE(
+        warnings.has("points or lines are ignored, only triangles make a surface: 1 (first: meshes/1/primitives/0"));
     file.json["scenes"][0]["nodes"] = {1};
-    expectFailure(Failure::input, {"no faces"}, [&] { readFileOf(file, warnings.warn()); });
+    expectFailure(Failure::input, {"no triangles"}, [&] { readFileOf(file, warnings.warn()); });
 }
 
 TEST(GltfCage, neverLooksAtPicturesAndForeignWords) {
