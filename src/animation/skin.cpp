@@ -11,7 +11,8 @@ class Skin : public Animation {
 public:
     /// Without meshes; the clip is one of the scene's, or none.
     Skin(std::string path, GltfScene scene, GltfBinding binding, std::optional<std::size_t> clip)
-        : path_(std::move(path)), scene_(std::move(scene)), binding_(std::move(binding)), clip_(clip) {}
+        : Animation(binding.posed), path_(std::move(path)), scene_(std::move(scene)), binding_(std::move(binding)),
+          clip_(clip) {}
 
     [[nodiscard]] Pose pose(double seconds) const override {
         GltfMotion motion{.transforms = restTransforms(scene_), .weights = {}};
@@ -20,7 +21,7 @@ public:
         const std::vector<glm::dmat4> worlds = worldMatrices(scene_, motion.transforms);
         Pose pose;
         for (const GltfJoint& joint : binding_.joints) {
-            pose.joints.emplace_back(worlds[joint.node] * joint.inverseBind);
+            pose.joints.emplace_back(leadingTo(binding_.posed, worlds[joint.node] * joint.inverseBind));
             for (int column = 0; column < 4; ++column)
                 checkFinite(pose.joints.back()[column], "matrix", joint.node, seconds);
         }

@@ -8,6 +8,7 @@
 
 #include "app/clip.h"
 #include "app/commands.h"
+#include "app/empty.h"
 #include "app/frames.h"
 
 namespace relief::app {
@@ -116,6 +117,8 @@ public:
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
     [[nodiscard]] const Device& device() const { return *device_; }
     DrawnFrame draw(int frame);
+    /// Why a frame came out empty.
+    [[nodiscard]] std::string reasonAt(int frame) const;
 
 private:
     [[nodiscard]] RenderOptions optionsAt(int frame) const;
@@ -127,6 +130,7 @@ private:
     Loaded loaded_;
     Shading shading_;
     Bounds bounds_; ///< of the object in all poses that the camera holds
+    bool isDense_ = false;
     std::unique_ptr<Device> device_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<Poser> poser_;
@@ -141,7 +145,9 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
         fail(Failure::usage, "{}: what moves is a subdivision surface; name its --scheme", surface.cage);
     frames_ = framesOf(args, loaded_.animation.get());
     shading_ = loadShading(picture_);
+    isDense_ = loaded_.dense.has_value();
     const std::vector<dvec3> points = outlineOfAll(loaded_);
+    enter(loaded_.coordinates(), picture_.camera);
     holdCamera(picture_.camera, points, args.turntable > 0);
     for (const dvec3& p : points) bounds_.add(p);
 
@@ -173,6 +179,7 @@ RenderOptions FrameMaker::optionsAt(int frame) const {
         PictureArgs picture = picture_;
         if (args_.turntable > 0) picture.camera.options.azimuth += 360.0 * (number - 1) / args_.turntable;
         RenderOptions options = renderOptions(picture, *device_, {bounds_.lower, bounds_.upper});
+        options.unit = loaded_.coordinates().unit;
         if (poser_) options.bounds = poser_->bounds();
         if (poser_) fitDepth(options.camera, options.bounds);
         return options;
@@ -196,6 +203,17 @@ DrawnFrame FrameMaker::draw(int frame) {
     return drawn;
 }
 
+std::string FrameMaker::reasonAt(int frame) const {
+    std::vector<dvec3> points(loaded_.cage.positions.begin(), loaded_.cage.positions.end());
+    if (!isDense_) {
+        ReferenceSurface coarse(loaded_.cage, {.scheme = loaded_.options.scheme, .isolation = 2});
+        if (poser_) coarse.pose(posedPositions(loaded_.animation->rig(), poseAt(frame)));
+        points = outline(coarse, nullptr);
+    }
+    const Camera camera = optionsAt(frame).camera;
+    return reasonOf({points, camera, picture_.camera.size[0], picture_.camera.size[1], loaded_.coordinates()});
+}
+
 /// What is told at the end.
 struct Report {
     nlohmann::json frames = nlohmann::json::array();
@@ -203,6 +221,7 @@ struct Report {
     std::string device;
     double seconds = 0;
     std::size_t skippedCount = 0;
+    bool warnsOfEmpty = true; ///< of the first frame in which nothing is drawn
 
     void add(const DrawnFrame& drawn) {
         const FrameStats& stats = drawn.picture.stats;
@@ -227,6 +246,11 @@ void drawAll(FrameMaker& maker, std::span<const int> frames, const AnimateArgs& 
         checkValidation(maker.device());
         if (writing.valid()) writing.get();
         report.add(*drawn);
+        if (report.warnsOfEmpty && isEmpty(drawn->picture)) {
+            report.warnsOfEmpty = false;
+            args.output.warn()(
+                fmt::format("{}: frame {}: nothing is drawn: {}", args.surface.cage, frame, maker.reasonAt(frame)));
+        }
         writing = std::async(std::launch::async, [drawn, &write] { write(*drawn); });
         progress.advance();
     }
@@ -267,11 +291,14 @@ void writeCache(const AnimateArgs& args, Report& report) {
         if (frames[i] != frames[0] + int(i))
             fail(Failure::usage, "{}: a point cache has every frame of a range; --frames {} leaves some out",
                  args.target, args.frames);
+    warnOfCoarseFloats(args.target, cage, args.output.warn());
     const CacheHeader header{std::uint32_t(cage.positions.size()), std::uint32_t(frames.size()), double(frames[0]),
                              pose.fps};
     writePointCache(args.target, header, [&](std::uint32_t k) {
         report.frames.push_back({{"frame", frames[k]}});
-        return posedPositions(animation->rig(), animation->pose(secondsOf(frames[k], pose)));
+        std::vector<vec3> positions = posedPositions(animation->rig(), animation->pose(secondsOf(frames[k], pose)));
+        for (vec3& p : positions) p = animation->coordinates().toWorld(p);
+        return positions;
     });
 }
 

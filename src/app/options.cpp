@@ -44,6 +44,7 @@ CLI::Validator sizeInBytes() {
 }
 
 CLI::Validator anyNumber() { return numberIn(-1e12, 1e12); }
+CLI::Validator anyPlace() { return numberIn(-kFarthestCoordinate, kFarthestCoordinate); } // in the units of any cage
 
 /// What --help calls an option's value, and the group where it lists it.
 CLI::Option* listed(CLI::Option* option, const char* value, const char* group) {
@@ -151,7 +152,7 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
            "N", "surface");
     const char* group = "height";
     listed(app.add_option("--height", args.height, "height map: .exr .tif .png .hdr"), "MAP", group);
-    listed(app.add_option("--scale", args.scale, "cage units for one unit of stored height (1)")->check(anyNumber()),
+    listed(app.add_option("--scale", args.scale, "cage units for one unit of stored height (1)")->check(anyPlace()),
            "S", group);
     listed(app.add_option("--mid", args.mid, "stored value without displacement (0.5 integer files, 0 float files)")
                ->check(anyNumber()),
@@ -227,11 +228,10 @@ void addCamera(CLI::App& app, CameraArgs& args) {
                ->check(numberIn(-90, 90)),
            "E", group);
     listed(app.add_option("--distance", args.distance, "cage units from the point looked at (frames the object)")
-               ->check(numberIn(1e-9, 1e9)),
+               ->check(numberIn(kSmallestSide, kFarthestCoordinate)),
            "D", group);
-    listed(
-        addNumbers(app, "--look-at", args.lookAt, "point in cage units (the object's centre)", 3)->check(anyNumber()),
-        "X,Y,Z", group);
+    listed(addNumbers(app, "--look-at", args.lookAt, "point in cage units (the object's centre)", 3)->check(anyPlace()),
+           "X,Y,Z", group);
     listed(app.add_option("--fov", args.options.fieldOfView, "vertical field of view in degrees, 1..150 (30)")
                ->check(numberIn(1, 150)),
            "F", group);
@@ -266,13 +266,6 @@ TriangleOptions triangleOptions(const TriangleArgs& args, const Device& device) 
             .spacing = args.spacing == "fractional" ? Spacing::fractional : Spacing::equal,
             .normal = normalKind(args.normal),
             .memory = args.memory};
-}
-
-Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points) {
-    CameraOptions options = args.options;
-    if (args.distance > 0) options.distance = args.distance;
-    if (!args.lookAt.empty()) options.lookAt = dvec3(args.lookAt[0], args.lookAt[1], args.lookAt[2]);
-    return frameCamera(points, options, double(args.size[0]) / args.size[1]);
 }
 
 double secondsNow() {
@@ -333,6 +326,8 @@ void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path) {
     if (!loaded.animation || args.staysAtRest) return;
     loaded.restPositions = std::move(loaded.cage.positions);
     loaded.cage.positions = posedPositions(loaded.animation->rig(), loaded.animation->pose(args.time.value_or(0)));
+    loaded.cage.coordinates = loaded.animation->coordinates();
+    recenter(loaded.cage);
 }
 
 } // namespace
@@ -377,6 +372,7 @@ Loaded load(const SurfaceArgs& args, const Output& output) {
                                     .format = mapFormatOf(args.mapFormat),
                                     .limits = {}};
         loaded.height = loadHeightMap(args.height, options, output.warn());
+        loaded.height->scale /= loaded.cage.coordinates.unit;
         if (!loaded.cage.hasTexCoords())
             output.warn()(fmt::format("{}: no texture coordinates: every face takes the whole map", args.cage));
     }

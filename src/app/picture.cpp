@@ -37,6 +37,20 @@ bool wantsMotion(const PictureArgs& args) {
     return std::ranges::find(layers, Layer::motion) != layers.end();
 }
 
+void enter(const Coordinates& coordinates, CameraArgs& args) {
+    args.distance /= coordinates.unit;
+    if (args.lookAt.empty()) return;
+    const dvec3 at = coordinates.toLocal(dvec3(args.lookAt[0], args.lookAt[1], args.lookAt[2]));
+    args.lookAt = {at.x, at.y, at.z};
+}
+
+Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points) {
+    CameraOptions options = args.options;
+    if (args.distance > 0) options.distance = args.distance;
+    if (!args.lookAt.empty()) options.lookAt = dvec3(args.lookAt[0], args.lookAt[1], args.lookAt[2]);
+    return frameCamera(points, options, double(args.size[0]) / args.size[1]);
+}
+
 RenderOptions renderOptions(const PictureArgs& picture, const Device& device, const std::vector<dvec3>& points) {
     RenderOptions options{triangleOptions(picture.triangles, device)};
     options.show = showOf(picture.show);

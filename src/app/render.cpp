@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/empty.h"
 
 namespace relief::app {
 namespace {
@@ -22,6 +23,7 @@ struct Drawn {
     Picture picture;
     std::string device;
     std::string mapFormat; ///< empty without a map
+    std::string whyEmpty;  ///< empty where something was drawn
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
     std::uint64_t peakDeviceBytes = 0; ///< of everything that the frame has on the device
     double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
@@ -81,7 +83,10 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
 
     const std::unique_ptr<Device> opened = opening.get();
     Device& device = *opened;
-    RenderOptions options = renderOptions(args.picture, device, points);
+    PictureArgs picture = args.picture;
+    enter(loaded.coordinates(), picture.camera);
+    RenderOptions options = renderOptions(picture, device, points);
+    options.unit = loaded.coordinates().unit;
     if (shading.environment) options.lighting.environment = &*shading.environment;
     Model model(device, {.surface = &loaded.surface,
                          .cagePositions = loaded.cage.positions,
@@ -97,6 +102,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
                 .loadSeconds = loaded.loadSeconds,
                 .surfaceSeconds = loaded.surfaceSeconds,
                 .tableSeconds = loaded.surface.tableSeconds};
+    const Coordinates coordinates = loaded.coordinates();
     loaded = {};
     shading.albedo.reset();
     malloc_trim(0);
@@ -105,6 +111,9 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     device.startPeak();
     drawn.picture = renderer.render(model, options);
     drawn.peakDeviceBytes = device.peakBytes();
+    if (isEmpty(drawn.picture))
+        drawn.whyEmpty =
+            reasonOf({points, options.camera, args.picture.camera.size[0], args.picture.camera.size[1], coordinates});
     progress.advance();
     checkValidation(device);
     return drawn;
@@ -117,6 +126,8 @@ int render(const RenderArgs& args) {
     const Drawn drawn = draw(args, progress);
     writePicture(args.target, drawn.picture, finishOf(args.picture));
     progress.advance();
+    if (!drawn.whyEmpty.empty())
+        args.output.warn()(fmt::format("{}: nothing is drawn: {}", args.surface.cage, drawn.whyEmpty));
     report(args, drawn);
     return 0;
 }

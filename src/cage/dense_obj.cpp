@@ -42,6 +42,20 @@ void putValues(ObjLines& lines, std::string_view keyword, const std::vector<Vect
     });
 }
 
+/// In the world: doubles, where floats could not tell vertices apart.
+void putPositions(ObjLines& lines, const DenseMesh& mesh, Progress& progress) {
+    if (mesh.coordinates.isIdentity()) return putValues(lines, "v", mesh.positions, progress);
+    putEach(mesh.positions.size(), progress, [&](std::size_t i) {
+        const dvec3 p = mesh.coordinates.toWorld(mesh.positions[i]);
+        lines.word("v");
+        for (int k = 0; k < 3; ++k) {
+            lines.word(" ");
+            lines.number(p[k]);
+        }
+        lines.endLine();
+    });
+}
+
 } // namespace
 
 void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
@@ -50,7 +64,7 @@ void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
     Progress progress("writing", mesh.positions.size() + mesh.texCoords.size() + mesh.normals.size() + triangleCount,
                       show);
     ObjLines lines(file);
-    putValues(lines, "v", mesh.positions, progress);
+    putPositions(lines, mesh, progress);
     putValues(lines, "vt", mesh.texCoords, progress);
     putValues(lines, "vn", mesh.normals, progress);
     putEach(triangleCount, progress, [&](std::size_t triangle) {

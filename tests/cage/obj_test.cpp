@@ -51,8 +51,8 @@ TEST(ObjLoader, readsASquare) {
 }
 
 TEST(ObjLoader, readsNumbersInAllSpellings) {
-    const Cage cage = parse("v +1.5 -.25 1e-3\nv 2. 1E+2 -0\nv 0.1 1234567 3.4e38\nf 1 2 3\n");
-    EXPECT_EQ(cage.positions, (std::vector<vec3>{{1.5f, -0.25f, 1e-3f}, {2, 100, 0}, {0.1f, 1234567, 3.4e38f}}));
+    const Cage cage = parse("v +1.5 -.25 1e-3\nv 2. 1E+2 -0\nv 0.1 1234567 -7e5\nf 1 2 3\n");
+    EXPECT_EQ(cage.positions, (std::vector<vec3>{{1.5f, -0.25f, 1e-3f}, {2, 100, 0}, {0.1f, 1234567, -7e5f}}));
 }
 
 TEST(ObjLoader, readsTextureCoordinatesAndNormals) {
