@@ -117,8 +117,8 @@ public:
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
     [[nodiscard]] const Device& device() const { return *device_; }
     DrawnFrame draw(int frame);
-    /// Why a frame came out empty.
-    [[nodiscard]] std::string reasonAt(int frame) const;
+    /// Why there is nothing to see; "" where there is something.
+    [[nodiscard]] std::string complaintOf(const DrawnFrame& drawn) const;
 
 private:
     [[nodiscard]] RenderOptions optionsAt(int frame) const;
@@ -203,15 +203,17 @@ DrawnFrame FrameMaker::draw(int frame) {
     return drawn;
 }
 
-std::string FrameMaker::reasonAt(int frame) const {
+std::string FrameMaker::complaintOf(const DrawnFrame& drawn) const {
+    if (!isSparse(drawn.picture)) return "";
     std::vector<dvec3> points(loaded_.cage.positions.begin(), loaded_.cage.positions.end());
     if (!isDense_) {
         ReferenceSurface coarse(loaded_.cage, {.scheme = loaded_.options.scheme, .isolation = 2});
-        if (poser_) coarse.pose(posedPositions(loaded_.animation->rig(), poseAt(frame)));
+        if (poser_) coarse.pose(posedPositions(loaded_.animation->rig(), poseAt(drawn.frame)));
         points = outline(coarse, nullptr);
     }
-    const Camera camera = optionsAt(frame).camera;
-    return reasonOf({points, camera, picture_.camera.size[0], picture_.camera.size[1], loaded_.coordinates()});
+    const Camera camera = optionsAt(drawn.frame).camera;
+    const std::vector<int>& size = picture_.camera.size;
+    return app::complaintOf(drawn.picture, {points, camera, size[0], size[1], loaded_.coordinates()});
 }
 
 /// What is told at the end.
@@ -221,7 +223,7 @@ struct Report {
     std::string device;
     double seconds = 0;
     std::size_t skippedCount = 0;
-    bool warnsOfEmpty = true; ///< of the first frame in which nothing is drawn
+    bool hasComplained = false; ///< of the first frame in which there is nothing to see
 
     void add(const DrawnFrame& drawn) {
         const FrameStats& stats = drawn.picture.stats;
@@ -246,11 +248,10 @@ void drawAll(FrameMaker& maker, std::span<const int> frames, const AnimateArgs& 
         checkValidation(maker.device());
         if (writing.valid()) writing.get();
         report.add(*drawn);
-        if (report.warnsOfEmpty && isEmpty(drawn->picture)) {
-            report.warnsOfEmpty = false;
-            args.output.warn()(
-                fmt::format("{}: frame {}: nothing is drawn: {}", args.surface.cage, frame, maker.reasonAt(frame)));
-        }
+        const std::string complaint = report.hasComplained ? "" : maker.complaintOf(*drawn);
+        if (!complaint.empty())
+            args.output.warn()(fmt::format("{}: frame {}: {}", args.surface.cage, frame, complaint));
+        report.hasComplained = report.hasComplained || !complaint.empty();
         writing = std::async(std::launch::async, [drawn, &write] { write(*drawn); });
         progress.advance();
     }

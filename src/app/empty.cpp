@@ -60,8 +60,11 @@ std::string faultOf(const EmptyView& view) {
         bounds.add(p);
     }
     const double size = bounds.longestSide();
-    const dvec3 at = view.coordinates.toWorld(bounds.center());
-    if (size == 0) return fmt::format("all of its points lie at one place ({:.9g}, {:.9g}, {:.9g})", at.x, at.y, at.z);
+    const double rounding = kNoWidth * std::max(glm::length(bounds.lower), glm::length(bounds.upper));
+    if (size <= rounding) {
+        const dvec3 at = view.coordinates.toWorld(bounds.center());
+        return fmt::format("all of its points lie at one place ({:.9g}, {:.9g}, {:.9g})", at.x, at.y, at.z);
+    }
     if (relativeWidth(view.points, size) < kNoWidth) return "all of its points lie on one line, so it has no area";
     if (size > kFarthestDrawn)
         return fmt::format("it reaches over {:.3g} cage units, too far for 32-bit floats; make its heights smaller",
@@ -69,16 +72,8 @@ std::string faultOf(const EmptyView& view) {
     return "";
 }
 
-} // namespace
-
-bool isEmpty(const Picture& picture) {
-    for (std::size_t alpha = 3; alpha < picture.halves.size(); alpha += 4)
-        if (picture.halves[alpha] != 0) return false;
-    return true;
-}
-
-std::string reasonOf(const EmptyView& view) {
-    if (std::string fault = faultOf(view); !fault.empty()) return fault;
+/// What is wrong with how it is looked at.
+std::string faultOfCamera(const EmptyView& view) {
     const Extent extent = extentOf(view);
     if (!extent.isInFront()) return "it lies behind the camera; see --look-at and --distance";
     const dvec2 size = extent.size();
@@ -91,6 +86,28 @@ std::string reasonOf(const EmptyView& view) {
         return fmt::format("it is seen from its edge, {:.3g} by {:.3g} pixels large", size.x, size.y);
     if (extent.nearest <= 0) return "the camera is inside of it or too near; see --look-at and --distance";
     return "none of its triangles covers the middle of a pixel";
+}
+
+std::size_t coveredPixels(const Picture& picture, std::size_t most) {
+    std::size_t count = 0;
+    for (std::size_t alpha = 3; alpha < picture.halves.size() && count < most; alpha += 4)
+        count += picture.halves[alpha] != 0 ? 1 : 0;
+    return count;
+}
+
+} // namespace
+
+bool isSparse(const Picture& picture) {
+    constexpr std::size_t kShare = 500; // of all pixels: what rounding makes visible of lines and points is less
+    const std::size_t most = picture.halves.size() / 4 / kShare + 1;
+    return coveredPixels(picture, most) < most;
+}
+
+std::string complaintOf(const Picture& picture, const EmptyView& view) {
+    if (!isSparse(picture)) return "";
+    std::string reason = faultOf(view);
+    if (reason.empty() && coveredPixels(picture, 1) == 0) reason = faultOfCamera(view);
+    return reason.empty() ? "" : "there is nothing to see: " + reason;
 }
 
 } // namespace relief::app

@@ -1,14 +1,14 @@
-// Pictures in which nothing was drawn, and why.
+// Pictures in which there is nothing to see, and why.
 #pragma once
 
 #include "app/options.h"
 
 namespace relief::app {
 
-/// Whether no pixel is covered.
-bool isEmpty(const Picture& picture);
+/// Whether so few pixels are covered that the object may have been missed.
+bool isSparse(const Picture& picture);
 
-/// What is known of a picture without a covered pixel.
+/// What is known of a sparse picture.
 struct EmptyView {
     std::span<const dvec3> points; ///< that outline what should be seen, as the camera has them
     const Camera& camera;
@@ -16,7 +16,7 @@ struct EmptyView {
     Coordinates coordinates;   ///< of the points, for messages
 };
 
-/// Why nothing was drawn, as the end of a sentence: "all its points lie at (0, 0, 0)".
-std::string reasonOf(const EmptyView& view);
+/// "there is nothing to see: all of its points lie on one line", or "" where there is something.
+std::string complaintOf(const Picture& picture, const EmptyView& view);
 
 } // namespace relief::app

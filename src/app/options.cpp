@@ -356,8 +356,6 @@ Loaded load(const SurfaceArgs& args, const Output& output) {
     Loaded loaded;
     const double start = secondsNow();
     loaded.cage = readCage(args.cage, output.warn());
-    loaded.animation = animationOf(args.pose, loaded.cage, output);
-    takePose(loaded, args.pose, args.cage);
     const bool isDense = args.scheme == "none" || (args.scheme.empty() && loaded.cage.isAllTriangles());
     if (isDense && !args.height.empty())
         fail(Failure::usage,
@@ -372,10 +370,12 @@ Loaded load(const SurfaceArgs& args, const Output& output) {
                                     .format = mapFormatOf(args.mapFormat),
                                     .limits = {}};
         loaded.height = loadHeightMap(args.height, options, output.warn());
-        loaded.height->scale /= loaded.cage.coordinates.unit;
+        suitHeights(loaded, output.warn());
         if (!loaded.cage.hasTexCoords())
             output.warn()(fmt::format("{}: no texture coordinates: every face takes the whole map", args.cage));
     }
+    loaded.animation = animationOf(args.pose, loaded.cage, output); // the unit is known now
+    takePose(loaded, args.pose, args.cage);
     const double loadEnd = secondsNow();
     if (isDense) {
         loaded.dense = denseMesh(loaded.cage);

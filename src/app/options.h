@@ -29,6 +29,8 @@ struct PoseArgs {
     [[nodiscard]] bool isStill() const { return cache.empty() && skin.empty() && deform.empty(); }
 };
 
+struct Loaded;
+
 struct SurfaceArgs {
     std::string cage;
     std::string scheme; ///< "": catmark, or none for a mesh of triangles
@@ -101,6 +103,9 @@ NormalKind normalKind(const std::string& word);
 /// "": tessellation where the device has it, else grid.
 Path pathOf(const std::string& word, const Device& device);
 TriangleOptions triangleOptions(const TriangleArgs& args, const Device& device);
+/// Heights in the cage's own unit. Where they are much larger than the cage, that becomes one in between, so that
+/// squares of both are within the range of floats.
+void suitHeights(Loaded& loaded, const Warn& warn);
 /// From the world's units and places to those of the object: points for cameraOf are in these too.
 void enter(const Coordinates& coordinates, CameraArgs& args);
 Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points);

@@ -23,7 +23,7 @@ struct Drawn {
     Picture picture;
     std::string device;
     std::string mapFormat; ///< empty without a map
-    std::string whyEmpty;  ///< empty where something was drawn
+    std::string complaint; ///< where there is nothing to see
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
     std::uint64_t peakDeviceBytes = 0; ///< of everything that the frame has on the device
     double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
@@ -111,9 +111,8 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     device.startPeak();
     drawn.picture = renderer.render(model, options);
     drawn.peakDeviceBytes = device.peakBytes();
-    if (isEmpty(drawn.picture))
-        drawn.whyEmpty =
-            reasonOf({points, options.camera, args.picture.camera.size[0], args.picture.camera.size[1], coordinates});
+    const std::vector<int>& size = args.picture.camera.size;
+    drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size[0], size[1], coordinates});
     progress.advance();
     checkValidation(device);
     return drawn;
@@ -126,8 +125,7 @@ int render(const RenderArgs& args) {
     const Drawn drawn = draw(args, progress);
     writePicture(args.target, drawn.picture, finishOf(args.picture));
     progress.advance();
-    if (!drawn.whyEmpty.empty())
-        args.output.warn()(fmt::format("{}: nothing is drawn: {}", args.surface.cage, drawn.whyEmpty));
+    if (!drawn.complaint.empty()) args.output.warn()(fmt::format("{}: {}", args.surface.cage, drawn.complaint));
     report(args, drawn);
     return 0;
 }

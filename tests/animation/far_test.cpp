@@ -62,7 +62,7 @@ TEST(FarCache, warnsOnceThatItsFloatsAreCoarse) {
     EXPECT_TRUE(warnings.empty());
     readPointCache(folder / "a.pc2", movedTo(kUtm), {}, warn);
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_NE(warnings[0].find("0.5 units apart"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("0.25 units apart"), std::string::npos) << warnings[0];
 }
 
 TEST(FarSequence, isReadInDoublePrecision) {

@@ -32,7 +32,7 @@ protected:
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         EXPECT_TRUE(outcome.err.starts_with("warning: ")) << outcome.err;
         const std::string line = outcome.err.substr(0, outcome.err.find('\n'));
-        EXPECT_TRUE(contains(line, "nothing is drawn: ")) << outcome.err;
+        EXPECT_TRUE(contains(line, "there is nothing to see: ")) << outcome.err;
         EXPECT_FALSE(contains(outcome.err.substr(line.size()), "warning: ")) << outcome.err;
         for (const std::string& part : parts) EXPECT_TRUE(contains(line, part)) << part << " in " << outcome.err;
     }
@@ -78,6 +78,9 @@ TEST_F(Empty, saysThatHeightsReachTooFar) {
 TEST_F(Empty, isNotSaidOfPictures) {
     for (const char* name : {"cube", "torus", "plane"})
         EXPECT_FALSE(contains(render(cagePath(name)).err, "warning")) << name;
+    for (const char* angle : {"30", "-30"}) // cubes of one pixel and some
+        EXPECT_FALSE(
+            contains(render(cagePath("cube"), fmt::format("--distance 200 --azimuth={}", angle)).err, "warning"));
     EXPECT_FALSE(contains(render(putCube([](const dvec3& p) { return 1e-15 * p; })).err, "warning"));
 }
 
@@ -86,10 +89,10 @@ TEST_F(Empty, framesOfAClipAreToldOnceWithTheFirst) {
                                     "scale(x=max(0,1-t), y=max(0,1-t), z=max(0,1-t))", "-o", folder_ / "f.{frame}.png"},
                                    "--size 64,64 --rate 4 --fps 2 --frames 0:5");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    const std::string mark = "frame 2: nothing is drawn: all of its points lie at one place";
+    const std::string mark = "frame 2: there is nothing to see: all of its points lie at one place";
     EXPECT_TRUE(contains(outcome.err, mark)) << outcome.err;
-    const std::size_t first = outcome.err.find("nothing is drawn");
-    EXPECT_EQ(outcome.err.find("nothing is drawn", first + 1), std::string::npos) << outcome.err;
+    const std::size_t first = outcome.err.find("nothing to see");
+    EXPECT_EQ(outcome.err.find("nothing to see", first + 1), std::string::npos) << outcome.err;
 }
 
 } // namespace

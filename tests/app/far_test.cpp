@@ -79,6 +79,13 @@ TEST_F(Far, looksTheSameInAnySize) {
                           fmt::format("{}", scale));
 }
 
+// Heights are told from their own pictures: at 10^12 sizes the cage is a point, and so it is at 10^9.
+TEST_F(Far, heightsOfAnySizeAreLitTheSame) {
+    const std::string words = "--rate 6 --height " + (folder_ / "waves.exr") + " --scale ";
+    const Image usual = draw(cagePath("torus"), words + "1e5");
+    for (const char* scale : {"1e9", "1e12"}) expectSamePicture(draw(cagePath("torus"), words + scale), usual, scale);
+}
+
 TEST_F(Far, theCameraIsPlacedInTheWorld) {
     const Image near = draw(cagePath("torus"), "--rate 6 --look-at 0.5,0.25,0 --distance 9");
     expectSamePicture(draw(put("torus", kAway), "--rate 6 --look-at 10000000.5,-9999999.75,20000000 --distance 9"),

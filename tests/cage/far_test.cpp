@@ -148,7 +148,8 @@ TEST(FarGltf, keepsWhatNodesShrinkAndGrow) {
 
 // Weights of a vertex add up to 1 as floats do: 6e-8 too little of 4 million units would be a quarter.
 TEST(FarGltf, blendsJointsNearTheCage) {
-    const Cage cage = torusWithSeams();
+    Cage cage = torusWithSeams();
+    cage.texCoords.clear(), cage.texCorners.clear(); // both sides of a seam would have weights of their own
     const DenseMesh mesh = denseMesh(cage);
     GltfFile file;
     file.addMesh(mesh.positions, mesh.indices);
