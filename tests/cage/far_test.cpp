@@ -121,26 +121,26 @@ GltfFile gltfOf(const Cage& cage, const Json& node) {
     return file;
 }
 
-Cage readFileOf(const GltfFile& file) {
+Cage cageOfFile(const GltfFile& file) {
     const TemporaryFolder folder;
     putFile(folder / "a.gltf", file.gltf());
     return readCage(folder / "a.gltf");
 }
 
 TEST(FarGltf, keepsWhatNodesMoveAwayInDoublePrecision) {
-    const Cage near = readFileOf(gltfOf(torusWithSeams(), {{"mesh", 0}}));
+    const Cage near = cageOfFile(gltfOf(torusWithSeams(), {{"mesh", 0}}));
     for (const dvec3& offset : kOffsets) {
         const Cage far =
-            readFileOf(gltfOf(torusWithSeams(), {{"mesh", 0}, {"translation", {offset.x, offset.y, offset.z}}}));
+            cageOfFile(gltfOf(torusWithSeams(), {{"mesh", 0}, {"translation", {offset.x, offset.y, offset.z}}}));
         EXPECT_EQ(far.faceCount(), near.faceCount());
         expectInTheWorld(far, near, offset);
     }
 }
 
 TEST(FarGltf, keepsWhatNodesShrinkAndGrow) {
-    const Cage near = readFileOf(gltfOf(cube(), {{"mesh", 0}}));
+    const Cage near = cageOfFile(gltfOf(cube(), {{"mesh", 0}}));
     for (const double scale : {std::ldexp(1.0, -60), std::ldexp(1.0, 70)}) {
-        const Cage cage = readFileOf(gltfOf(cube(), {{"mesh", 0}, {"scale", {scale, scale, scale}}}));
+        const Cage cage = cageOfFile(gltfOf(cube(), {{"mesh", 0}, {"scale", {scale, scale, scale}}}));
         EXPECT_EQ(cage.faceCount(), near.faceCount());
         expectInTheWorld(cage, near, dvec3(0), scale);
     }
@@ -168,7 +168,7 @@ TEST(FarGltf, blendsJointsNearTheCage) {
     const dvec3 offset = kOffsets[1];
     for (int i = 0; i < 2; ++i) file.addNode({{"translation", {offset.x, offset.y, offset.z}}});
     file.json["skins"] = {{{"joints", {1, 2}}}};
-    const Cage far = readFileOf(file), near = readFileOf(gltfOf(cage, {{"mesh", 0}}));
+    const Cage far = cageOfFile(file), near = cageOfFile(gltfOf(cage, {{"mesh", 0}}));
     expectInTheWorld(far, near, offset);
 }
 
