@@ -25,9 +25,8 @@ struct Rig {
 
 /// Either the posed points themselves, or what moves them through a Rig.
 struct Pose {
-    std::vector<vec3> positions; ///< one a cage point; empty where a rig moves them
-    std::vector<mat4>
-        joints; ///< jointCount affine matrices: a joint's place in the world times its inverse bind matrix
+    std::vector<vec3> positions;     ///< one a cage point; empty where a rig moves them
+    std::vector<mat4> joints;        ///< jointCount affine matrices: a joint's place times its inverse bind matrix
     std::vector<float> morphWeights; ///< morphCount
 };
 
@@ -41,7 +40,11 @@ std::vector<vec3> posedPositions(const Rig* rig, const Pose& pose);
 /// time, because keys that have been read are kept.
 class Animation {
 public:
+    explicit Animation(const Coordinates& coordinates = {}) : coordinates_(coordinates) {}
     virtual ~Animation() = default;
+
+    /// Of all poses: what positions and joints are told in. Those of the cage, unless a skin stands elsewhere.
+    [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
 
     /// The same bits for the same time, whatever was asked before. Throws Failure::input or Failure::file, naming the
     /// frame, where keys are read when they are needed and one of them is bad.
@@ -50,6 +53,9 @@ public:
     [[nodiscard]] virtual const Rig* rig() const { return nullptr; }
     /// Seconds of the first and the last key; (0, 0) where there is only one.
     [[nodiscard]] virtual dvec2 keyRange() const = 0;
+
+private:
+    Coordinates coordinates_;
 };
 
 /// The cage as it stands, at all times.
@@ -84,16 +90,20 @@ struct CacheOptions {
 std::unique_ptr<Animation> readPointCache(const std::string& path, const Cage& cage, const CacheOptions& options,
                                           const Warn& warn = warnOnStderr);
 
+/// Warns where the floats of a point cache are too coarse for a cage so far from the origin; `path` is the cache's.
+void warnOfCoarseFloats(const std::string& path, const Cage& cage, const Warn& warn);
+
 struct CacheHeader {
     std::uint32_t pointCount = 0, frameCount = 0; ///< 1..2^31 - 1
     double startFrame = 0;
     double fps = 24; ///< of .mdd
 };
 
-/// Writes poses as .pc2 (frames startFrame, startFrame + 1, ...) or .mdd (seconds frame / fps), by the extension of
-/// `path`, whole or not at all and a frame at a time: `positions(k)` for k in 0..frameCount-1, pointCount each; they
-/// read back to the same bits. Throws Failure::usage for other extensions and for a header that the format cannot hold,
-/// Failure::input when a pose has another count or is not finite, Failure::file when writing fails.
+/// Writes poses, which are in the world, as .pc2 (frames startFrame, startFrame + 1, ...) or .mdd (seconds frame /
+/// fps), by the extension of `path`, whole or not at all and a frame at a time: `positions(k)` for k in
+/// 0..frameCount-1, pointCount each; they read back to the same bits. Throws Failure::usage for other extensions and
+/// for a header that the format cannot hold, Failure::input when a pose has another count or is not finite,
+/// Failure::file when writing fails.
 void writePointCache(const std::string& path, const CacheHeader& header,
                      const std::function<std::vector<vec3>(std::uint32_t)>& positions);
 

@@ -9,14 +9,16 @@ class CageSequence : public KeyReader {
 public:
     CageSequence(std::string pattern, std::vector<int> frames, const Cage& cage)
         : pattern_(std::move(pattern)), frames_(std::move(frames)), pointCount_(cage.positions.size()),
-          faceSizes_(cage.faceSizes), corners_(cage.corners) {}
+          faceSizes_(cage.faceSizes), corners_(cage.corners), coordinates_(cage.coordinates) {}
 
     [[nodiscard]] std::string name(std::size_t key) const override {
         return fmt::format("{}: frame {}", frameName(pattern_, frames_[key]), frames_[key]);
     }
 
     std::vector<vec3> read(std::size_t key) override {
-        Cage cage = readCage(frameName(pattern_, frames_[key]), [](const std::string&) {}); // tags mean nothing here
+        const std::string path = frameName(pattern_, frames_[key]);
+        Cage cage = parseObj(
+            readFile(path), path, [](const std::string&) {}, coordinates_); // tags mean nothing here
         checkTopology(cage, name(key));
         return std::move(cage.positions);
     }
@@ -28,6 +30,7 @@ private:
     std::vector<int> frames_;
     std::size_t pointCount_;
     std::vector<std::uint32_t> faceSizes_, corners_;
+    Coordinates coordinates_; ///< of the cage, for all frames
 };
 
 void CageSequence::checkTopology(const Cage& cage, const std::string& key) const {
@@ -60,7 +63,7 @@ std::unique_ptr<Animation> readCageSequence(const std::string& pattern, const Ca
     for (const int frame : frames) times.seconds.push_back(frame / options.fps);
     auto reader = std::make_unique<CageSequence>(pattern, frames, cage);
     reader->read(0); // a sequence of another cage is told at once
-    return animateKeys(std::move(reader), std::move(times), options.interpolation);
+    return animateKeys(std::move(reader), std::move(times), {options.interpolation, cage.coordinates});
 }
 
 } // namespace relief

@@ -113,10 +113,13 @@ std::vector<Deformer> readDeformers(const std::string& expression) {
 
 // --- posing ------------------------------------------------------------------------------------------------------
 
-Bounds boxOf(const Cage& cage) {
+/// In the coordinates of the poses that are deformed.
+Bounds boxOf(const Cage& cage, const Coordinates& coordinates) {
     Bounds box;
     for (const std::uint32_t point : cage.corners) box.add(cage.positions[point]);
-    return box;
+    if (coordinates == cage.coordinates) return box;
+    const Bounds world = cage.coordinates.toWorld(box);
+    return {.lower = coordinates.toLocal(world.lower), .upper = coordinates.toLocal(world.upper)};
 }
 
 double valueAt(const Deformer& deformer, std::size_t index, double t) {
@@ -147,12 +150,17 @@ bool movesWithTime(const Deformer& deformer) {
 class DeformedAnimation : public Animation {
 public:
     DeformedAnimation(std::unique_ptr<Animation> base, const Bounds& box, std::vector<Deformer> deformers)
-        : base_(std::move(base)), box_(box), deformers_(std::move(deformers)) {}
+        : Animation(base->coordinates()), base_(std::move(base)), box_(box), deformers_(std::move(deformers)) {}
 
     [[nodiscard]] Pose pose(double seconds) const override;
     [[nodiscard]] dvec2 keyRange() const override;
 
 private:
+    [[noreturn]] static void failToHold(std::size_t point, const dvec3& p, double seconds) {
+        fail(Failure::usage, "deformers: point {} goes to ({} {} {}) at t = {} seconds; use smaller values", point, p.x,
+             p.y, p.z, seconds);
+    }
+
     std::unique_ptr<Animation> base_;
     Bounds box_;
     std::vector<Deformer> deformers_;
@@ -168,9 +176,7 @@ Pose DeformedAnimation::pose(double seconds) const {
         const dvec3 before(pose.positions[i]);
         dvec3 p = before;
         for (const Move& move : moves) p = move(p);
-        if (!(glm::length(p - before) <= kFarthest * box_.diagonal()))
-            fail(Failure::usage, "deformers: point {} goes to ({} {} {}) at t = {} seconds; use smaller values", i, p.x,
-                 p.y, p.z, seconds);
+        if (!(glm::length(p - before) <= kFarthest * box_.diagonal())) failToHold(i, coordinates().toWorld(p), seconds);
         pose.positions[i] = p;
     }
     return pose;
@@ -185,7 +191,8 @@ dvec2 DeformedAnimation::keyRange() const {
 } // namespace
 
 std::unique_ptr<Animation> deform(std::unique_ptr<Animation> base, const Cage& cage, const std::string& expression) {
-    return std::make_unique<DeformedAnimation>(std::move(base), boxOf(cage), readDeformers(expression));
+    const Bounds box = boxOf(cage, base->coordinates());
+    return std::make_unique<DeformedAnimation>(std::move(base), box, readDeformers(expression));
 }
 
 std::string deformerHelp() {

@@ -34,7 +34,7 @@ Rig gatherRig(const Rig& from, const std::vector<std::uint32_t>& points) {
 class Gathered : public Animation {
 public:
     Gathered(std::unique_ptr<Animation> base, std::vector<std::uint32_t> points)
-        : base_(std::move(base)), points_(std::move(points)) {
+        : Animation(base->coordinates()), base_(std::move(base)), points_(std::move(points)) {
         if (base_->rig() != nullptr) rig_ = gatherRig(*base_->rig(), points_);
     }
 

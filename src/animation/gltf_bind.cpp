@@ -38,30 +38,37 @@ std::vector<Source> sourcesOf(const GltfScene& scene) {
 
 bool isFinite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// Where all vertices are in the world when nothing moves, to the bit as a cage from this file has them.
-std::vector<dvec3> restPlaces(const GltfScene& scene, const std::vector<Source>& sources, const std::string& path) {
+/// Where all vertices are in the cage's coordinates when nothing moves; as floats to the bit as a cage from this file
+/// has them.
+std::vector<dvec3> restPlaces(const GltfScene& scene, const Cage& cage, const std::vector<Source>& sources,
+                              const std::string& path) {
     const std::vector<glm::dmat4> worlds = worldMatrices(scene, restTransforms(scene));
     std::vector<glm::dmat4> joints;
     std::vector<dvec3> places;
     places.reserve(sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const auto& [node, primitive, vertex] = sources[i];
-        if (i == 0 || node != sources[i - 1].node) joints = jointMatrices(scene, node, worlds);
+        if (i == 0 || node != sources[i - 1].node) joints = jointMatrices(scene, node, worlds, cage.coordinates);
         const glm::dmat4 matrix = blendedMatrix(*primitive, vertex, scene.nodes[node].skin >= 0, joints);
         const dvec3 morphed = morphedPosition(*primitive, vertex, scene.nodes[node].weights);
-        const vec3 place(dvec3(matrix * glm::dvec4(morphed, 1)));
-        if (!isFinite(place))
+        places.emplace_back(matrix * glm::dvec4(morphed, 1));
+        if (!isFinite(vec3(places.back())))
             fail(Failure::input, "{}: nodes/{}: its vertex {} does not stand at finite numbers", path, node, vertex);
-        places.emplace_back(place);
     }
     return places;
 }
 
-/// Where they are in the spaces of their meshes.
-std::vector<dvec3> meshPlaces(const std::vector<Source>& sources) {
+std::vector<dvec3> asFloats(std::vector<dvec3> places) {
+    for (dvec3& place : places) place = vec3(place);
+    return places;
+}
+
+/// Where they would be if the spaces of their meshes were the world.
+std::vector<dvec3> meshPlaces(const Cage& cage, const std::vector<Source>& sources) {
     std::vector<dvec3> places;
     places.reserve(sources.size());
-    for (const Source& source : sources) places.emplace_back(source.primitive->positions[source.vertex]);
+    for (const Source& source : sources)
+        places.push_back(cage.coordinates.toLocal(source.primitive->positions[source.vertex]));
     return places;
 }
 
@@ -70,13 +77,14 @@ struct Match {
     std::vector<std::uint32_t> sources;
     std::vector<double> distances;
     bool isAtRest = true; ///< by the vertices' places in the world at rest, not in their meshes
+    Bounds bounds;        ///< of those places at rest of the vertices that are matched, in the cage's coordinates
 
     [[nodiscard]] double largestDistance() const { return *std::max_element(distances.begin(), distances.end()); }
 };
 
 Match matchNearest(const Cage& cage, std::vector<dvec3> places, bool isAtRest) {
     const PointTree tree(std::move(places));
-    Match match{.sources = {}, .distances = {}, .isAtRest = isAtRest};
+    Match match{.sources = {}, .distances = {}, .isAtRest = isAtRest, .bounds = {}};
     for (const vec3& position : cage.positions) {
         const dvec3 p(position);
         double nearest = std::numeric_limits<double>::infinity();
@@ -117,12 +125,13 @@ void checkExact(const Match& match, const Cage& cage, double tolerance, const st
     const auto first = std::find_if(match.distances.begin(), match.distances.end(), isOff);
     if (first == match.distances.end()) return;
     const auto point = std::size_t(first - match.distances.begin());
-    const vec3& p = cage.positions[point];
+    const dvec3 p = cage.coordinates.toWorld(cage.positions[point]);
+    const int digits = cage.coordinates.isIdentity() ? 7 : 15;
     fail(Failure::input,
-         "{}: {} of {} cage points have no vertex at their place; point {} at ({}, {}, {}) is {:.4g} away from the "
-         "nearest; --bind-nearest takes that one",
+         "{}: {} of {} cage points have no vertex at their place; point {} at ({:.{}g}, {:.{}g}, {:.{}g}) is {:.4g} "
+         "away from the nearest; --bind-nearest takes that one",
          path, std::count_if(match.distances.begin(), match.distances.end(), isOff), cage.positions.size(), point, p.x,
-         p.y, p.z, *first);
+         digits, p.y, digits, p.z, digits, *first * cage.coordinates.unit);
 }
 
 Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Source>& sources, bool bindsNearest,
@@ -130,11 +139,13 @@ Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Sour
     Bounds bounds;
     for (const vec3& p : cage.positions) bounds.add(dvec3(p));
     const double tolerance = kTolerance * bounds.diagonal();
-    std::vector<dvec3> places = restPlaces(scene, sources, path);
-    if (std::optional<Match> own = matchOwn(cage, sources, places)) return *own;
-    Match atRest = matchNearest(cage, std::move(places), true);
+    const std::vector<dvec3> places = restPlaces(scene, cage, sources, path);
+    const std::vector<dvec3> rounded = asFloats(places);
+    if (std::optional<Match> own = matchOwn(cage, sources, rounded)) return *own;
+    Match atRest = matchNearest(cage, rounded, true);
     if (atRest.largestDistance() <= tolerance) return atRest;
-    Match inMeshes = matchNearest(cage, meshPlaces(sources), false);
+    Match inMeshes = matchNearest(cage, meshPlaces(cage, sources), false);
+    for (const std::uint32_t source : inMeshes.sources) inMeshes.bounds.add(places[source]);
     if (inMeshes.largestDistance() <= tolerance) return inMeshes;
     if (!bindsNearest) checkExact(atRest, cage, tolerance, path);
     return atRest;
@@ -154,19 +165,26 @@ struct Influences {
 class Binder {
 public:
     Binder(const GltfScene& scene, const std::vector<Source>& sources, const Match& match, const std::string& path)
-        : scene_(scene), sources_(sources), match_(match), path_(path) {}
+        : scene_(scene), sources_(sources), match_(match), path_(path) {
+        Bounds bounds;
+        for (const std::uint32_t source : match_.sources) bounds.add(positionOf(source));
+        binding_.rest = coordinatesFor(bounds);
+    }
 
     /// Joints, weights and morph offsets; rest is the vertices' own.
     GltfBinding bind() {
         for (const std::uint32_t source : match_.sources) influences_.push_back(influencesOf(sources_[source]));
         packInfluences();
         for (const std::uint32_t source : match_.sources)
-            binding_.rig.rest.push_back(sources_[source].primitive->positions[sources_[source].vertex]);
+            binding_.rig.rest.emplace_back(binding_.rest.toLocal(positionOf(source)));
         addMorphs();
         return std::move(binding_);
     }
 
 private:
+    [[nodiscard]] dvec3 positionOf(std::uint32_t source) const {
+        return sources_[source].primitive->positions[sources_[source].vertex];
+    }
     Influences influencesOf(const Source& source);
     std::uint32_t jointOf(int skin, std::uint32_t index);
     void packInfluences();
@@ -238,7 +256,7 @@ void Binder::addMorphs() {
         const auto& [node, primitive, vertex] = sources_[match_.sources[point]];
         for (std::size_t target = 0; target < scene_.nodes[node].weights.size(); ++target)
             rig.morphOffsets[(firstMorphs[node] + target) * rig.rest.size() + point] =
-                primitive->offsets[target * primitive->positions.size() + vertex];
+                dvec3(primitive->offsets[target * primitive->positions.size() + vertex]) / binding_.rest.unit;
     }
 }
 
@@ -248,7 +266,8 @@ void Binder::addMorphs() {
 std::vector<glm::dmat4> restJoints(const GltfScene& scene, const GltfBinding& binding) {
     const std::vector<glm::dmat4> worlds = worldMatrices(scene, restTransforms(scene));
     std::vector<glm::dmat4> joints;
-    for (const GltfJoint& joint : binding.joints) joints.emplace_back(mat4(worlds[joint.node] * joint.inverseBind));
+    for (const GltfJoint& joint : binding.joints)
+        joints.emplace_back(mat4(leadingTo(binding.posed, worlds[joint.node] * joint.inverseBind)));
     return joints;
 }
 
@@ -275,6 +294,23 @@ std::size_t keepPlaces(const GltfScene& scene, const Cage& cage, GltfBinding& bi
     return flatCount;
 }
 
+/// Poses of a cage that fits the vertices at rest stay where it is; others go where the nodes put them.
+Coordinates posedCoordinates(const Match& match, const Cage& cage) {
+    if (match.isAtRest) return cage.coordinates;
+    Coordinates coordinates = coordinatesFor(cage.coordinates.toWorld(match.bounds));
+    coordinates.unit = cage.coordinates.unit; // heights and lengths are told in it already
+    return coordinates;
+}
+
+/// Joints take points of `coordinates`.
+void startFrom(const Coordinates& coordinates, GltfBinding& binding) {
+    binding.rest = coordinates;
+    if (coordinates.isIdentity()) return;
+    glm::dmat4 toMesh(coordinates.unit);
+    toMesh[3] = glm::dvec4(coordinates.origin, 1);
+    for (GltfJoint& joint : binding.joints) joint.inverseBind = joint.inverseBind * toMesh;
+}
+
 } // namespace
 
 GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest, const std::string& path,
@@ -283,11 +319,11 @@ GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest
     const std::vector<Source> sources = sourcesOf(scene);
     const Match match = matchCage(scene, cage, sources, bindsNearest, path);
     GltfBinding binding = Binder(scene, sources, match, path).bind();
-    if (!bindsNearest) return binding;
-    if (!match.isAtRest) {
-        binding.rig.rest = cage.positions;
-        return binding;
-    }
+    binding.posed = posedCoordinates(match, cage);
+    const bool takesCage = bindsNearest && !match.isAtRest;
+    if (takesCage) binding.rig.rest = cage.positions;
+    startFrom(takesCage ? cage.coordinates : binding.rest, binding);
+    if (takesCage || !bindsNearest) return binding;
     const std::size_t flatCount = keepPlaces(scene, cage, binding);
     if (flatCount > 0)
         warn(fmt::format("{}: the joints of {} cage points have no volume at rest; they take the vertices' places",

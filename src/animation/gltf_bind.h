@@ -6,7 +6,7 @@
 
 namespace relief {
 
-/// A joint of the rig: world of the node * inverse bind.
+/// A joint of the rig: world of the node * inverse bind, from the coordinates of the rig's rest.
 struct GltfJoint {
     std::uint32_t node = 0;
     glm::dmat4 inverseBind{1};
@@ -21,6 +21,8 @@ struct GltfBinding {
     Rig rig;
     std::vector<GltfJoint> joints; ///< rig.jointCount: those that some cage point needs
     std::vector<GltfMorph> morphs; ///< rig.morphCount
+    Coordinates rest;              ///< of the points of the rig, in the spaces of their meshes
+    Coordinates posed;             ///< of poses, in the world
 };
 
 /// Throws as readSkin where a cage point finds no vertex; `path` is the file's.

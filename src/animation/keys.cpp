@@ -11,8 +11,9 @@ vec3 blend(const vec3& a, const vec3& b, double share) { return dvec3(a) + share
 
 class KeyedAnimation : public Animation {
 public:
-    KeyedAnimation(std::unique_ptr<KeyReader> reader, KeyTimes times, Interpolation interpolation)
-        : reader_(std::move(reader)), times_(std::move(times)), interpolation_(interpolation) {}
+    KeyedAnimation(std::unique_ptr<KeyReader> reader, KeyTimes times, const KeyUse& use)
+        : Animation(use.coordinates), reader_(std::move(reader)), times_(std::move(times)),
+          interpolation_(use.interpolation) {}
 
     [[nodiscard]] Pose pose(double seconds) const override;
     [[nodiscard]] dvec2 keyRange() const override;
@@ -93,9 +94,9 @@ void checkFps(double fps) {
     if (!(fps >= 1e-3 && fps <= 1e6)) fail(Failure::usage, "{} frames a second; 0.001 to 1000000 are possible", fps);
 }
 
-std::unique_ptr<Animation> animateKeys(std::unique_ptr<KeyReader> reader, KeyTimes times, Interpolation interpolation) {
+std::unique_ptr<Animation> animateKeys(std::unique_ptr<KeyReader> reader, KeyTimes times, const KeyUse& use) {
     checkTimes(times, *reader);
-    return std::make_unique<KeyedAnimation>(std::move(reader), std::move(times), interpolation);
+    return std::make_unique<KeyedAnimation>(std::move(reader), std::move(times), use);
 }
 
 } // namespace relief

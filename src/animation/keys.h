@@ -12,7 +12,7 @@ public:
     /// What messages call a key: "walk.pc2: frame 101".
     [[nodiscard]] virtual std::string name(std::size_t key) const = 0;
     /// One position a cage point; animateKeys checks that they are finite.
-    virtual std::vector<vec3> read(std::size_t key) = 0;
+    virtual std::vector<vec3> read(std::size_t key) = 0; ///< in KeyUse::coordinates
 };
 
 struct KeyTimes {
@@ -22,9 +22,14 @@ struct KeyTimes {
     const char* remedy = ""; ///< what helps where they are wrong
 };
 
+struct KeyUse {
+    Interpolation interpolation = Interpolation::linear;
+    Coordinates coordinates; ///< of the positions that are read
+};
+
 /// Keys in use are kept, so that frames in a row read each key once. Throws Failure::input unless all times are finite
 /// and rise.
-std::unique_ptr<Animation> animateKeys(std::unique_ptr<KeyReader> reader, KeyTimes times, Interpolation interpolation);
+std::unique_ptr<Animation> animateKeys(std::unique_ptr<KeyReader> reader, KeyTimes times, const KeyUse& use);
 
 /// Throws Failure::input, naming `key` and the point.
 void checkFinite(const std::vector<vec3>& positions, const std::string& key);

@@ -66,6 +66,7 @@ private:
 struct CacheBody {
     std::uint64_t offset = 0;
     std::size_t pointCount = 0, frameCount = 0;
+    Coordinates coordinates; ///< that positions are wanted in; the file's are the world's
 };
 
 class CacheReader : public KeyReader {
@@ -82,6 +83,7 @@ public:
         const std::vector<std::uint32_t> words = file_.words(body_.offset + 4 * key * wordCount, wordCount);
         std::vector<vec3> positions(body_.pointCount);
         for (std::size_t i = 0; i < wordCount; ++i) positions[i / 3][int(i % 3)] = std::bit_cast<float>(words[i]);
+        for (vec3& p : positions) p = body_.coordinates.toLocal(p);
         return positions;
     }
 
@@ -145,14 +147,17 @@ std::unique_ptr<Animation> readPc2(const std::string& path, const Cage& cage, co
         fail(Failure::input, "{}: the sample rate is {} frames per sample; {} to {} are possible; {}", path, rate,
              kLeastRate, kMostRate, kCountFrames);
     checkFrameCount(path, sampleCount);
-    const CacheBody body{.offset = kPc2HeaderBytes, .pointCount = pointCount, .frameCount = sampleCount};
+    const CacheBody body{.offset = kPc2HeaderBytes,
+                         .pointCount = pointCount,
+                         .frameCount = sampleCount,
+                         .coordinates = cage.coordinates};
     checkBodyLength(file, body);
 
     const double first = options.countsFrames ? 0 : start, step = options.countsFrames ? 1 : rate;
     KeyTimes times{.seconds = {}, .remedy = kCountFrames};
     for (std::size_t i = 0; i < sampleCount; ++i) times.seconds.push_back((first + double(i) * step) / options.fps);
     auto reader = std::make_unique<CacheReader>(std::move(file), body, first, step);
-    return animateKeys(std::move(reader), std::move(times), options.interpolation);
+    return animateKeys(std::move(reader), std::move(times), {options.interpolation, cage.coordinates});
 }
 
 std::unique_ptr<Animation> readMdd(const std::string& path, const Cage& cage, const CacheOptions& options) {
@@ -162,7 +167,10 @@ std::unique_ptr<Animation> readMdd(const std::string& path, const Cage& cage, co
     const std::uint32_t frameCount = words[0], pointCount = words[1];
     checkPointCount(path, pointCount, cage.positions.size());
     checkFrameCount(path, frameCount);
-    const CacheBody body{.offset = 8 + 4ull * frameCount, .pointCount = pointCount, .frameCount = frameCount};
+    const CacheBody body{.offset = 8 + 4ull * frameCount,
+                         .pointCount = pointCount,
+                         .frameCount = frameCount,
+                         .coordinates = cage.coordinates};
     checkBodyLength(file, body);
 
     KeyTimes times{.seconds = {}, .areFloats = !options.countsFrames, .remedy = kCountFrames};
@@ -171,7 +179,7 @@ std::unique_ptr<Animation> readMdd(const std::string& path, const Cage& cage, co
         times.seconds.push_back(options.countsFrames ? double(times.seconds.size()) / options.fps
                                                      : std::bit_cast<float>(word));
     auto reader = std::make_unique<CacheReader>(std::move(file), body, 0, 1);
-    return animateKeys(std::move(reader), std::move(times), options.interpolation);
+    return animateKeys(std::move(reader), std::move(times), {options.interpolation, cage.coordinates});
 }
 
 std::unique_ptr<Animation> readByName(const std::string& path, const Cage& cage, const CacheOptions& options) {
@@ -185,12 +193,23 @@ std::unique_ptr<Animation> readByName(const std::string& path, const Cage& cage,
 
 } // namespace
 
+void warnOfCoarseFloats(const std::string& path, const Cage& cage, const Warn& warn) {
+    constexpr double kCoarse = 1e-5; // of the cage's size: from there on it can be seen
+    const dvec3& origin = cage.coordinates.origin;
+    const double size = summarize(cage).bounds.diagonal(), spacing = floatSpacing(origin);
+    if (origin == dvec3(0) || spacing <= kCoarse * size) return;
+    warn(fmt::format("{}: the 32-bit floats of a point cache are {:.2g} units apart so far from the origin, and the "
+                     "cage is {:.2g} units large; move both nearer to it",
+                     path, spacing, size));
+}
+
 std::unique_ptr<Animation> readPointCache(const std::string& path, const Cage& cage, const CacheOptions& options,
                                           const Warn& warn) {
     checkFps(options.fps);
     auto animation = readByName(path, cage, options);
     const dvec2 range = animation->keyRange();
     if (range.x == range.y) warn(fmt::format("{}: there is only one frame, so nothing moves", path));
+    if (!isFramePattern(path)) warnOfCoarseFloats(path, cage, warn);
     return animation;
 }
 

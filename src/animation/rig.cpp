@@ -22,7 +22,7 @@ dvec3 skinned(const Rig& rig, const Pose& pose, std::size_t point, const dvec3& 
 
 class StillPose : public Animation {
 public:
-    explicit StillPose(std::vector<vec3> positions) : positions_(std::move(positions)) {}
+    explicit StillPose(const Cage& cage) : Animation(cage.coordinates), positions_(cage.positions) {}
     [[nodiscard]] Pose pose(double) const override {
         return {.positions = positions_, .joints = {}, .morphWeights = {}};
     }
@@ -43,6 +43,6 @@ std::vector<vec3> posedPositions(const Rig* rig, const Pose& pose) {
     return positions;
 }
 
-std::unique_ptr<Animation> stillPose(const Cage& cage) { return std::make_unique<StillPose>(cage.positions); }
+std::unique_ptr<Animation> stillPose(const Cage& cage) { return std::make_unique<StillPose>(cage); }
 
 } // namespace relief

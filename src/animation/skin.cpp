@@ -10,7 +10,7 @@ class Skin : public Animation {
 public:
     /// The scene is without meshes.
     Skin(std::string path, GltfScene scene, GltfBinding binding)
-        : path_(std::move(path)), scene_(std::move(scene)), binding_(std::move(binding)) {}
+        : Animation(binding.posed), path_(std::move(path)), scene_(std::move(scene)), binding_(std::move(binding)) {}
 
     [[nodiscard]] Pose pose(double seconds) const override {
         GltfMotion motion{.transforms = restTransforms(scene_), .weights = {}};
@@ -19,7 +19,7 @@ public:
         const std::vector<glm::dmat4> worlds = worldMatrices(scene_, motion.transforms);
         Pose pose;
         for (const GltfJoint& joint : binding_.joints) {
-            pose.joints.emplace_back(worlds[joint.node] * joint.inverseBind);
+            pose.joints.emplace_back(leadingTo(binding_.posed, worlds[joint.node] * joint.inverseBind));
             for (int column = 0; column < 4; ++column)
                 checkFinite(pose.joints.back()[column], "matrix", joint.node, seconds);
         }

@@ -8,6 +8,7 @@
 
 #include "app/clip.h"
 #include "app/commands.h"
+#include "app/empty.h"
 #include "app/frames.h"
 #include "app/weld.h"
 
@@ -133,6 +134,8 @@ public:
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
     [[nodiscard]] const Device& device() const { return *device_; }
     DrawnFrame draw(int frame);
+    /// Why there is nothing to see; "" where there is something.
+    [[nodiscard]] std::string complaintOf(const DrawnFrame& drawn) const;
 
 private:
     [[nodiscard]] RenderOptions optionsAt(int frame) const;
@@ -147,6 +150,7 @@ private:
     Bounds bounds_;                          ///< of the object in all poses that the camera holds
     std::optional<MovingPolygons> polygons_; ///< instead of a surface that moves
     Bounds polygonBounds_;                   ///< in the pose that is drawn
+    bool isDense_ = false;
     std::unique_ptr<Device> device_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<Poser> poser_;
@@ -166,7 +170,9 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
     }
     frames_ = framesOf(args, loaded_.animation.get());
     shading_ = loadShading(picture_);
+    isDense_ = loaded_.dense.has_value();
     const std::vector<dvec3> points = outlineOfAll(loaded_);
+    enter(loaded_.coordinates(), picture_.camera);
     holdCamera(picture_.camera, points, args.turntable > 0);
     for (const dvec3& p : points) bounds_.add(p);
     if (polygons_) loaded_.dense = polygons_->at(secondsOf(frames_.front(), surface.pose));
@@ -201,6 +207,7 @@ RenderOptions FrameMaker::optionsAt(int frame) const {
         PictureArgs picture = picture_;
         if (args_.turntable > 0) picture.camera.options.azimuth += 360.0 * (number - 1) / args_.turntable;
         RenderOptions options = renderOptions(picture, *device_, {bounds_.lower, bounds_.upper});
+        options.unit = loaded_.coordinates().unit;
         if (poser_) options.bounds = poser_->bounds();
         if (meshPoser_) options.bounds = polygonBounds_;
         if (poser_ || meshPoser_) fitDepth(options.camera, options.bounds);
@@ -235,6 +242,19 @@ DrawnFrame FrameMaker::draw(int frame) {
     return drawn;
 }
 
+std::string FrameMaker::complaintOf(const DrawnFrame& drawn) const {
+    if (!isSparse(drawn.picture)) return "";
+    std::vector<dvec3> points(loaded_.cage.positions.begin(), loaded_.cage.positions.end());
+    if (!isDense_) {
+        ReferenceSurface coarse(loaded_.cage, {.scheme = loaded_.options.scheme, .isolation = 2});
+        if (poser_) coarse.pose(posedPositions(loaded_.animation->rig(), poseAt(drawn.frame)));
+        points = outline(coarse, nullptr);
+    }
+    const Camera camera = optionsAt(drawn.frame).camera;
+    const std::vector<int>& size = picture_.camera.size;
+    return app::complaintOf(drawn.picture, {points, camera, size[0], size[1], loaded_.coordinates()});
+}
+
 /// What is told at the end.
 struct Report {
     nlohmann::json frames = nlohmann::json::array();
@@ -242,6 +262,7 @@ struct Report {
     std::string device;
     double seconds = 0;
     std::size_t skippedCount = 0;
+    bool hasComplained = false; ///< of the first frame in which there is nothing to see
 
     void add(const DrawnFrame& drawn) {
         const FrameStats& stats = drawn.picture.stats;
@@ -266,6 +287,10 @@ void drawAll(FrameMaker& maker, std::span<const int> frames, const AnimateArgs& 
         checkValidation(maker.device());
         if (writing.valid()) writing.get();
         report.add(*drawn);
+        const std::string complaint = report.hasComplained ? "" : maker.complaintOf(*drawn);
+        if (!complaint.empty())
+            args.output.warn()(fmt::format("{}: frame {}: {}", args.surface.cage, frame, complaint));
+        report.hasComplained = report.hasComplained || !complaint.empty();
         writing = std::async(std::launch::async, [drawn, &write] { write(*drawn); });
         progress.advance();
     }
@@ -306,11 +331,14 @@ void writeCache(const AnimateArgs& args, Report& report) {
         if (frames[i] != frames[0] + int(i))
             fail(Failure::usage, "{}: a point cache has every frame of a range; --frames {} leaves some out",
                  args.target, args.frames);
+    warnOfCoarseFloats(args.target, cage, args.output.warn());
     const CacheHeader header{std::uint32_t(cage.positions.size()), std::uint32_t(frames.size()), double(frames[0]),
                              pose.fps};
     writePointCache(args.target, header, [&](std::uint32_t k) {
         report.frames.push_back({{"frame", frames[k]}});
-        return posedPositions(animation->rig(), animation->pose(secondsOf(frames[k], pose)));
+        std::vector<vec3> positions = posedPositions(animation->rig(), animation->pose(secondsOf(frames[k], pose)));
+        for (vec3& p : positions) p = animation->coordinates().toWorld(p);
+        return positions;
     });
 }
 

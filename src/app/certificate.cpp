@@ -28,8 +28,9 @@ void addBroken(std::vector<std::string>& broken, const PathReport& report) {
 
 json ofPlace(const SurfacePlace& place) { return {{"face", place.face}, {"u", place.uv.x}, {"v", place.uv.y}}; }
 
-json ofPath(const PathReport& report) {
+json ofPath(const PathReport& report, const Coordinates& coordinates) {
     const Watertightness& w = report.triangles;
+    const dvec3 worst = coordinates.toWorld(w.worstPlace);
     return {{"path", report.path},
             {"watertight", w.isWatertight() && report.crackPixels.value_or(0) == 0},
             {"triangles", w.triangles},
@@ -42,7 +43,7 @@ json ofPath(const PathReport& report) {
             {"boundary_segments", w.boundarySegments},
             {"expected_boundary_segments", w.expectedBoundarySegments},
             {"largest_gap_ulps", w.largestGapUlps},
-            {"largest_gap_at", {w.worstPlace.x, w.worstPlace.y, w.worstPlace.z}},
+            {"largest_gap_at", {worst.x, worst.y, worst.z}},
             {"crack_pixels", report.crackPixels ? json(*report.crackPixels) : json()}};
 }
 
@@ -175,7 +176,21 @@ std::vector<std::string> Certificate::brokenPromises() const {
     return broken;
 }
 
-json toJson(const Certificate& c) {
+namespace {
+
+/// Lengths and areas in the world's units.
+Certificate inWorldUnits(Certificate c) {
+    const double unit = c.coordinates.unit;
+    c.diagonal *= unit, c.reach *= unit;
+    c.curvature.area *= unit * unit, c.curvature.foldedArea *= unit * unit;
+    if (c.seams) c.seams->length *= unit, c.seams->max *= unit, c.seams->mean *= unit;
+    return c;
+}
+
+} // namespace
+
+json toJson(const Certificate& local) {
+    const Certificate c = inWorldUnits(local);
     json all{{"cage", c.cage},
              {"device", c.device},
              {"faces", c.faceCount},
@@ -186,13 +201,14 @@ json toJson(const Certificate& c) {
              {"corners", ofCorners(c.corners)},
              {"curvature", ofCurvature(c.curvature)},
              {"broken_promises", c.brokenPromises()}};
-    for (const PathReport& report : c.paths) all["paths"].push_back(ofPath(report));
+    for (const PathReport& report : c.paths) all["paths"].push_back(ofPath(report, c.coordinates));
     if (!c.height.empty()) all["height"] = c.height, all["reach"] = c.reach;
     if (c.seams) all["seams"] = ofSeams(*c.seams, c.reach);
     return all;
 }
 
-std::string toText(const Certificate& c) {
+std::string toText(const Certificate& local) {
+    const Certificate c = inWorldUnits(local);
     std::string text = fmt::format("{}{} on {}\n", c.cage, c.height.empty() ? "" : " with " + c.height, c.device);
     text += "watertight\n" + pathTable(c);
     text += "exact, against a double-precision reference\n" + regionTable("outside end caps", c.frames.regular) +

@@ -28,12 +28,13 @@ struct Certificate {
     std::string cage, height, device; ///< height: "" without a map
     std::size_t faceCount = 0;
     int isolation = 0;
-    double diagonal = 0, reach = 0; ///< cage units; largest height of the map
+    double diagonal = 0, reach = 0; ///< in `coordinates`, as all lengths; largest height of the map
     std::vector<PathReport> paths;
     FrameErrors frames;
     CornerReport corners;
     CurvatureReport curvature;
     std::optional<SeamReport> seams; ///< with a map
+    Coordinates coordinates;         ///< what is printed is in the world
 
     /// One entry for each promise that is broken: "grid: 3 open edges". Folds and seams are the map's, not ours.
     [[nodiscard]] std::vector<std::string> brokenPromises() const;

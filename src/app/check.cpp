@@ -128,8 +128,9 @@ Certificate certify(const CheckArgs& args, const Loaded& loaded) {
                             .device = device.traits().name,
                             .faceCount = loaded.surface.faces.size(),
                             .isolation = loaded.options.isolation,
-                            .diagonal = summarize(loaded.cage).bounds.diagonal(),
-                            .reach = loaded.height ? loaded.height->reach() : 0};
+                            .diagonal = summarize(loaded.cage).bounds.diagonal() / loaded.coordinates().unit,
+                            .reach = loaded.height ? loaded.height->reach() : 0,
+                            .coordinates = loaded.coordinates()};
     const std::optional<Picture> heatmap = checkPoints(device, model, loaded, args, certificate);
     progress.advance();
     // DESIGN: 4 % of a face opens any crack to some pixels.

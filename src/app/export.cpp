@@ -29,7 +29,9 @@ struct Exported {
 
 EdgeRates ratesOf(Device& device, const Model& model, const Loaded& loaded, const ExportArgs& args, double& rateMs) {
     View view;
-    if (!args.triangles.rate) view = viewOf(cameraOf(args.camera, outlineOf(loaded)), args.camera.size[1]);
+    CameraArgs camera = args.camera;
+    enter(loaded.coordinates(), camera);
+    if (!args.triangles.rate) view = viewOf(cameraOf(camera, outlineOf(loaded)), camera.size[1]);
     return EdgeRater(device).rates(model, triangleOptions(args.triangles, device), view, &rateMs);
 }
 
@@ -57,6 +59,7 @@ Exported dice(const ExportArgs& args) {
     progress.advance();
     checkMeshSize(args.target, diced.vertexCount, diced.triangleCount, hasTexCoords);
     exported.mesh = readBack(device, diced);
+    exported.mesh.coordinates = loaded.coordinates();
     exported.sampleCount = diced.sampleCount;
     exported.diceMs = diced.milliseconds;
     progress.advance();

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -63,12 +64,12 @@ json ofSeams(SurfaceArgs args, const std::string& cage, bool isQuiet) {
     const Loaded loaded = load(args, {.isQuiet = isQuiet});
     const ReferenceSurface reference(loaded.cage, loaded.options);
     const SeamReport seams = reportSeams(loaded.surface, reference, *loaded.height);
-    const double reach = loaded.height->reach();
+    const double unit = loaded.coordinates().unit, reach = loaded.height->reach();
     json result{{"map", args.height},
-                {"map_reach", reach},
+                {"map_reach", unit * reach},
                 {"map_seam_edges", seams.seamEdgeCount},
-                {"seam_disagreement_max", seams.max},
-                {"seam_disagreement_mean", seams.mean},
+                {"seam_disagreement_max", unit * seams.max},
+                {"seam_disagreement_mean", unit * seams.mean},
                 {"seam_max_of_reach", fractionOf(seams.max, reach)},
                 {"seam_mean_of_reach", fractionOf(seams.mean, reach)}};
     if (seams.max > 0)
@@ -129,7 +130,8 @@ bool isCage(const std::string& path) {
 
 std::string text(const json& value) {
     if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    if (value.is_number_float()) // far from the origin six digits do not tell places apart
+        return fmt::format("{:.{}g}", value.get<double>(), std::abs(value.get<double>()) < 1e5 ? 6 : 12);
     if (!value.is_structured()) return value.dump();
     std::string joined;
     for (const auto& [key, item] : value.items())

@@ -25,6 +25,7 @@ CLI::Validator numberIn(double lowest, double highest) {
 }
 
 CLI::Validator anyNumber() { return numberIn(-1e12, 1e12); }
+CLI::Validator anyPlace() { return numberIn(-kFarthestCoordinate, kFarthestCoordinate); } // in the units of any cage
 
 /// What --help calls an option's value, and the group where it lists it.
 CLI::Option* listed(CLI::Option* option, const char* value, const char* group) {
@@ -139,7 +140,7 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     addWeld(app, args.weld);
     const char* group = "height";
     listed(app.add_option("--height", args.height, "height map: .exr .tif .png .hdr"), "MAP", group);
-    listed(app.add_option("--scale", args.scale, "cage units for one unit of stored height (1)")->check(anyNumber()),
+    listed(app.add_option("--scale", args.scale, "cage units for one unit of stored height (1)")->check(anyPlace()),
            "S", group);
     listed(app.add_option("--mid", args.mid, "stored value without displacement (0.5 integer files, 0 float files)")
                ->check(anyNumber()),
@@ -215,11 +216,10 @@ void addCamera(CLI::App& app, CameraArgs& args) {
                ->check(numberIn(-90, 90)),
            "E", group);
     listed(app.add_option("--distance", args.distance, "cage units from the point looked at (frames the object)")
-               ->check(numberIn(1e-9, 1e9)),
+               ->check(numberIn(kSmallestSide, kFarthestCoordinate)),
            "D", group);
-    listed(
-        addNumbers(app, "--look-at", args.lookAt, "point in cage units (the object's centre)", 3)->check(anyNumber()),
-        "X,Y,Z", group);
+    listed(addNumbers(app, "--look-at", args.lookAt, "point in cage units (the object's centre)", 3)->check(anyPlace()),
+           "X,Y,Z", group);
     listed(app.add_option("--fov", args.options.fieldOfView, "vertical field of view in degrees, 1..150 (30)")
                ->check(numberIn(1, 150)),
            "F", group);
@@ -254,13 +254,6 @@ TriangleOptions triangleOptions(const TriangleArgs& args, const Device& device) 
             .spacing = args.spacing == "fractional" ? Spacing::fractional : Spacing::equal,
             .normal = normalKind(args.normal),
             .memory = args.memory};
-}
-
-Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points) {
-    CameraOptions options = args.options;
-    if (args.distance > 0) options.distance = args.distance;
-    if (!args.lookAt.empty()) options.lookAt = dvec3(args.lookAt[0], args.lookAt[1], args.lookAt[2]);
-    return frameCamera(points, options, double(args.size[0]) / args.size[1]);
 }
 
 double secondsNow() {
@@ -326,12 +319,8 @@ Loaded load(const SurfaceArgs& args, const Output& output, const std::string& al
     Loaded loaded;
     const double start = secondsNow();
     loaded.cage = readCage(args.cage, output.warn());
-    loaded.animation = animationOf(args.pose, loaded.cage, output);
-    weldLoaded(loaded, args.weld);
     checkTexCoords(loaded.cage, {args.height, albedo}, output.warn());
     const bool isDense = args.scheme == "none" || (args.scheme.empty() && loaded.cage.isAllTriangles());
-    if (!isDense && args.weld.empty()) warnOfCoincidence(loaded.cage, args.cage, output.warn());
-    takePose(loaded, args.pose, args.cage);
     if (isDense && !args.height.empty())
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
@@ -345,9 +334,14 @@ Loaded load(const SurfaceArgs& args, const Output& output, const std::string& al
                                     .format = mapFormatOf(args.mapFormat),
                                     .limits = {}};
         loaded.height = loadHeightMap(args.height, options, output.warn());
+        suitHeights(loaded, output.warn());
         if (!loaded.cage.hasTexCoords())
             output.warn()(fmt::format("{}: no texture coordinates: every face takes the whole map", args.cage));
     }
+    loaded.animation = animationOf(args.pose, loaded.cage, output); // the unit is known now
+    weldLoaded(loaded, args.weld);
+    if (!isDense && args.weld.empty()) warnOfCoincidence(loaded.cage, args.cage, output.warn());
+    takePose(loaded, args.pose, args.cage);
     const double loadEnd = secondsNow();
     if (isDense) {
         loaded.dense = denseMesh(loaded.cage);

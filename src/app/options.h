@@ -32,6 +32,8 @@ struct PoseArgs {
     [[nodiscard]] bool isStill() const { return cache.empty() && skin.empty() && deform.empty(); }
 };
 
+struct Loaded;
+
 struct SurfaceArgs {
     std::string cage;
     std::string scheme; ///< "": catmark, or none for a mesh of triangles
@@ -87,7 +89,7 @@ void addNormal(CLI::App& app, std::string& word);
 void addCamera(CLI::App& app, CameraArgs& args);
 void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
-/// What a picture shows: path, camera and light are the same for all frames.
+/// What a picture shows: path, camera (see enter) and light are the same for all frames.
 RenderOptions renderOptions(const PictureArgs& args, const Device& device, const std::vector<dvec3>& points);
 Finish finishOf(const PictureArgs& args);
 /// Throws Failure::usage unless pictures are .png or .exr, and .exr where layers are asked for.
@@ -105,6 +107,11 @@ NormalKind normalKind(const std::string& word);
 /// "": tessellation where the device has it, else grid.
 Path pathOf(const std::string& word, const Device& device);
 TriangleOptions triangleOptions(const TriangleArgs& args, const Device& device);
+/// Heights in the cage's own unit. Where they are much larger than the cage, that becomes one in between, so that
+/// squares of both are within the range of floats.
+void suitHeights(Loaded& loaded, const Warn& warn);
+/// From the world's units and places to those of the object: points for cameraOf are in these too.
+void enter(const Coordinates& coordinates, CameraArgs& args);
 Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points);
 
 double secondsNow();
@@ -121,6 +128,10 @@ struct Loaded {
     double loadSeconds = 0, surfaceSeconds = 0;
 
     [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
+    /// Of what is drawn: of the cage's pose, or of all poses where it stays at rest.
+    [[nodiscard]] const Coordinates& coordinates() const {
+        return animation && restPositions.empty() ? animation->coordinates() : cage.coordinates;
+    }
 };
 /// What moves the cage, or null.
 std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output);

@@ -1,5 +1,6 @@
 // What the words about a picture turn into: shared by the verbs that draw.
 #include <algorithm>
+#include <cmath>
 
 #include "app/options.h"
 
@@ -35,6 +36,37 @@ void checkPicturePath(const std::string& path, const PictureArgs& args) {
 bool wantsMotion(const PictureArgs& args) {
     const std::vector<Layer> layers = layersOf(args.layers);
     return std::ranges::find(layers, Layer::motion) != layers.end();
+}
+
+void suitHeights(Loaded& loaded, const Warn& warn) {
+    constexpr double kUsual = 1 << 20, kMost = 1e15;
+    Coordinates& coordinates = loaded.cage.coordinates;
+    const double reach = loaded.height->reach(), size = summarize(loaded.cage).bounds.longestSide();
+    const double ratio = size > 0 ? reach / size : 0;
+    if (ratio > kMost)
+        warn(fmt::format("heights of up to {:.3g} cage units on a cage {:.3g} large: 32-bit floats hold at most {:.0e} "
+                         "times its size; lower --scale",
+                         reach, size, kMost));
+    if (ratio > kUsual) {
+        const double factor = std::ldexp(1.0, std::ilogb(std::min(ratio, kMost)) / 2);
+        for (vec3& p : loaded.cage.positions) p = dvec3(p) / factor;
+        coordinates.unit *= factor;
+    }
+    loaded.height->scale /= coordinates.unit;
+}
+
+void enter(const Coordinates& coordinates, CameraArgs& args) {
+    args.distance /= coordinates.unit;
+    if (args.lookAt.empty()) return;
+    const dvec3 at = coordinates.toLocal(dvec3(args.lookAt[0], args.lookAt[1], args.lookAt[2]));
+    args.lookAt = {at.x, at.y, at.z};
+}
+
+Camera cameraOf(const CameraArgs& args, std::span<const dvec3> points) {
+    CameraOptions options = args.options;
+    if (args.distance > 0) options.distance = args.distance;
+    if (!args.lookAt.empty()) options.lookAt = dvec3(args.lookAt[0], args.lookAt[1], args.lookAt[2]);
+    return frameCamera(points, options, double(args.size[0]) / args.size[1]);
 }
 
 RenderOptions renderOptions(const PictureArgs& picture, const Device& device, const std::vector<dvec3>& points) {

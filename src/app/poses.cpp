@@ -26,6 +26,8 @@ void takePose(Loaded& loaded, const PoseArgs& args, const std::string& path) {
     loaded.restPositions = std::move(loaded.cage.positions);
     loaded.cage.positions = posedPositions(loaded.animation->rig(), loaded.animation->pose(args.time.value_or(0)));
     turnNormals(loaded.cage, loaded.restPositions);
+    loaded.cage.coordinates = loaded.animation->coordinates();
+    recenter(loaded.cage);
 }
 
 MovingPolygons::MovingPolygons(Cage rest, const Animation& animation)
@@ -34,6 +36,7 @@ MovingPolygons::MovingPolygons(Cage rest, const Animation& animation)
 DenseMesh MovingPolygons::at(double seconds) const {
     Cage posed = rest_;
     posed.positions = posedPositions(animation_->rig(), animation_->pose(seconds));
+    posed.coordinates = animation_->coordinates();
     turnNormals(posed, rest_.positions);
     return denseMesh(posed);
 }

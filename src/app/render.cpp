@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/empty.h"
 #include "app/weld.h"
 
 namespace relief::app {
@@ -23,6 +24,7 @@ struct Drawn {
     Picture picture;
     std::string device;
     std::string mapFormat; ///< empty without a map
+    std::string complaint; ///< where there is nothing to see
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
     std::uint64_t peakDeviceBytes = 0; ///< of everything that the frame has on the device
     double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
@@ -83,7 +85,10 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
 
     const std::unique_ptr<Device> opened = opening.get();
     Device& device = *opened;
-    RenderOptions options = renderOptions(args.picture, device, points);
+    PictureArgs picture = args.picture;
+    enter(loaded.coordinates(), picture.camera);
+    RenderOptions options = renderOptions(picture, device, points);
+    options.unit = loaded.coordinates().unit;
     if (shading.environment) options.lighting.environment = &*shading.environment;
     Model model(device, {.surface = &loaded.surface,
                          .cagePositions = loaded.cage.positions,
@@ -99,6 +104,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
                 .loadSeconds = loaded.loadSeconds,
                 .surfaceSeconds = loaded.surfaceSeconds,
                 .tableSeconds = loaded.surface.tableSeconds};
+    const Coordinates coordinates = loaded.coordinates();
     loaded = {};
     shading.albedo.reset();
     malloc_trim(0);
@@ -107,6 +113,8 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     device.startPeak();
     drawn.picture = renderer.render(model, options);
     drawn.peakDeviceBytes = device.peakBytes();
+    const std::vector<int>& size = args.picture.camera.size;
+    drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size[0], size[1], coordinates});
     progress.advance();
     checkValidation(device);
     return drawn;
@@ -119,6 +127,7 @@ int render(const RenderArgs& args) {
     const Drawn drawn = draw(args, progress);
     writePicture(args.target, drawn.picture, finishOf(args.picture));
     progress.advance();
+    if (!drawn.complaint.empty()) args.output.warn()(fmt::format("{}: {}", args.surface.cage, drawn.complaint));
     report(args, drawn);
     return 0;
 }

@@ -53,29 +53,49 @@ std::vector<SampleQuery> readPoints(const std::string& path) {
     return queries;
 }
 
-void appendRow(std::string& text, const SampleQuery& query, const SampleResult& r) {
-    auto out = std::back_inserter(text);
-    out = fmt::format_to(out, "{},{:.9g},{:.9g}", query.face, query.uv.x, query.uv.y);
-    for (const vec3& v : {r.p, r.pu, r.pv, r.n}) out = fmt::format_to(out, ",{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
-    out = fmt::format_to(out, ",{:.9g}", r.h);
-    for (const vec3& v : {r.q, r.m}) out = fmt::format_to(out, ",{:.9g},{:.9g},{:.9g}", v.x, v.y, v.z);
-    text += '\n';
-}
+/// Numbers in the world. Nine digits tell floats apart; places far from the origin take those of a double.
+class Rows {
+public:
+    explicit Rows(const Coordinates& coordinates) : coordinates_(coordinates) {}
+
+    void add(const SampleQuery& query, const SampleResult& r) {
+        const double unit = coordinates_.unit;
+        text_ += fmt::format("{},{:.9g},{:.9g}", query.face, query.uv.x, query.uv.y);
+        put(coordinates_.toWorld(r.p), placeDigits_);
+        for (const dvec3& v : {unit * dvec3(r.pu), unit * dvec3(r.pv), dvec3(r.n)}) put(v, kFloatDigits);
+        text_ += fmt::format(",{:.9g}", unit * r.h);
+        put(coordinates_.toWorld(r.q), placeDigits_);
+        put(r.m, kFloatDigits);
+        text_ += '\n';
+    }
+    [[nodiscard]] std::string takeText() { return std::move(text_); }
+
+private:
+    static constexpr int kFloatDigits = 9, kDoubleDigits = 17;
+
+    void put(const dvec3& v, int digits) {
+        fmt::format_to(std::back_inserter(text_), ",{:.{}g},{:.{}g},{:.{}g}", v.x, digits, v.y, digits, v.z, digits);
+    }
+
+    Coordinates coordinates_;
+    int placeDigits_ = coordinates_.isIdentity() ? kFloatDigits : kDoubleDigits;
+    std::string text_{kHeader};
+};
 
 /// One CSV row for each query, with the device's frames.
-std::string sampledRows(Device& device, const Model& model, const std::vector<SampleQuery>& queries,
-                        const SampleArgs& args) {
+Rows sampledRows(Device& device, const Model& model, const std::vector<SampleQuery>& queries, const SampleArgs& args,
+                 const Coordinates& coordinates) {
     SurfaceSampler sampler(device);
     Progress progress("sampling", queries.size(), args.output.progress);
-    std::string text(kHeader);
+    Rows rows(coordinates);
     for (std::size_t first = 0; first < queries.size(); first += kRowsAtOnce) {
         const auto part = std::span(queries).subspan(first, std::min(kRowsAtOnce, queries.size() - first));
         const std::vector<SampleResult> results =
             sampler.sample(model, part, {.firstRow = first, .normal = normalKind(args.normal)});
-        for (std::size_t i = 0; i < part.size(); ++i) appendRow(text, part[i], results[i]);
+        for (std::size_t i = 0; i < part.size(); ++i) rows.add(part[i], results[i]);
         progress.advance(part.size());
     }
-    return text;
+    return rows;
 }
 
 int sample(const SampleArgs& args) {
@@ -89,7 +109,7 @@ int sample(const SampleArgs& args) {
         device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
     std::string text;
     try {
-        text = sampledRows(device, model, queries, args);
+        text = sampledRows(device, model, queries, args, loaded.coordinates()).takeText();
     } catch (const Error& error) {
         if (error.failure != Failure::input) throw;
         fail(error.failure, "{}: {}", args.points, error.what());

@@ -6,8 +6,8 @@ namespace relief::app {
 namespace {
 
 WeldedCage weldAsAsked(Cage cage, const std::string& word) {
-    const double diagonal = summarize(cage).bounds.diagonal();
-    WeldedCage welded = weld(std::move(cage), parseDistance(word).value_or(Distance{}).cageUnits(diagonal));
+    const double diagonal = summarize(cage).bounds.diagonal(), unit = cage.coordinates.unit;
+    WeldedCage welded = weld(std::move(cage), parseDistance(word).value_or(Distance{}).cageUnits(diagonal) / unit);
     if (welded.cage.faceCount() == 0)
         fail(Failure::usage, "--weld {}: all faces shrink to nothing; use a smaller distance", word);
     return welded;

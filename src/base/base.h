@@ -60,6 +60,34 @@ struct Bounds {
     [[nodiscard]] double longestSide() const;
 };
 
+// --- coordinates ------------------------------------------------------------------------------------------------
+
+/// The largest coordinate of a position that is taken, and the smallest side of an object that has coordinates of its
+/// own.
+inline constexpr double kFarthestCoordinate = 1e100, kSmallestSide = 1e-100;
+
+/// Where an object's own coordinates, which floats hold, are in the world, which takes doubles:
+/// world = origin + unit * local. The unit is a power of two.
+struct Coordinates {
+    dvec3 origin{0};
+    double unit = 1;
+
+    bool operator==(const Coordinates&) const = default;
+    /// Local coordinates are the world's, to the bit.
+    [[nodiscard]] bool isIdentity() const { return origin == dvec3(0) && unit == 1; }
+    [[nodiscard]] dvec3 toWorld(const dvec3& local) const;
+    [[nodiscard]] dvec3 toLocal(const dvec3& world) const;
+    [[nodiscard]] Bounds toWorld(const Bounds& local) const;
+};
+
+/// For an object with such a box in the world. The identity unless the box's centre is farther from the origin than the
+/// box is large, or its longest side is below 2^-20 or above 2^21. Origins are multiples of a power of two above the
+/// longest side, so that positions that are floats stay exact, and so does an object that is moved by such a multiple.
+Coordinates coordinatesFor(const Bounds& bounds);
+
+/// From the largest coordinate of a place to the next float.
+double floatSpacing(const dvec3& p);
+
 // --- images on disk ---------------------------------------------------------------------------------------------
 
 /// What a picture file may hold before it is refused (checked on its header, before memory is taken).

@@ -122,6 +122,15 @@ void validateCage(const Cage& cage, const std::string& name) {
     checkParts(cage, name);
 }
 
+void recenter(Cage& cage) {
+    Bounds bounds;
+    for (const std::uint32_t corner : cage.corners) bounds.add(cage.positions[corner]);
+    const dvec3 shift = coordinatesFor(bounds).origin;
+    if (shift == dvec3(0)) return;
+    for (vec3& p : cage.positions) p = dvec3(p) - shift;
+    cage.coordinates.origin += cage.coordinates.unit * shift;
+}
+
 Cage readCage(const std::string& path, const Warn& warn) {
     const std::string extension = lowerExtension(path);
     if (extension == ".gltf" || extension == ".glb") return readGltfCage(path, warn);

@@ -1,6 +1,8 @@
 // Control cages: polygons with subdivision tags, in files and in memory.
 #pragma once
 
+#include <optional>
+
 #include "base/base.h"
 
 namespace relief {
@@ -22,7 +24,7 @@ struct CagePart {
 
 /// Plain arrays; all indices count from 0 and are valid once a loader returns it.
 struct Cage {
-    std::vector<vec3> positions;
+    std::vector<vec3> positions;          ///< in `coordinates`
     std::vector<std::uint32_t> faceSizes; ///< corners a face, each >= 3
     std::vector<std::uint32_t> corners;   ///< position index, all faces in a row: sum(faceSizes) entries
 
@@ -43,6 +45,8 @@ struct Cage {
     CreaseMethod creaseMethod = CreaseMethod::uniform;
 
     std::vector<CagePart> parts; ///< empty, or runs that cover all faces in order
+
+    Coordinates coordinates; ///< of the positions; loaders choose them for the vertices that faces use
 
     [[nodiscard]] std::size_t faceCount() const { return faceSizes.size(); }
     [[nodiscard]] bool hasTexCoords() const { return !texCorners.empty(); }
@@ -66,10 +70,12 @@ Cage readCage(const std::string& path, const Warn& warn = warnOnStderr);
 /// The same from text in memory; `name` stands for the file in messages.
 /// Tags count vertices and faces from 0 through the whole file, whatever object they stand in. Degenerate faces (fewer
 /// than 3 corners, a vertex used twice), corners that repeat the one before and normals that some faces lack are
-/// dropped with a warning, texture coordinates that some faces lack without one (Cage::missingTexCoords).
-Cage parseObj(const std::string& text, const std::string& name, const Warn& warn = warnOnStderr);
+/// dropped with a warning, texture coordinates that some faces lack without one (Cage::missingTexCoords). Positions are
+/// read in double precision, and told in `coordinates` where those are given.
+Cage parseObj(const std::string& text, const std::string& name, const Warn& warn = warnOnStderr,
+              const std::optional<Coordinates>& coordinates = {});
 
-/// Writes positions, texture coordinates, faces, tags and parts as OBJ, whole or not at all.
+/// Writes positions in the world, texture coordinates, faces, tags and parts as OBJ, whole or not at all.
 void writeObj(const std::string& path, const Cage& cage);
 
 /// Throws Failure::input when an index is out of range, a face has fewer than 3 corners, a number is not finite, a
@@ -93,6 +99,9 @@ WeldedCage weld(Cage cage, double distance);
 /// How many vertices weld(cage, 0) removes.
 std::uint64_t countCoincidentVertices(const Cage& cage);
 
+/// Takes an origin nearer to the cage where it has moved away from its own; its positions in the world stay the same.
+void recenter(Cage& cage);
+
 /// What `relief info` prints of a cage.
 struct CageSummary {
     std::uint64_t vertexCount = 0, faceCount = 0, edgeCount = 0, cornerCount = 0;
@@ -102,7 +111,7 @@ struct CageSummary {
     std::uint64_t maxValence = 0, unusedVertexCount = 0;
     std::uint64_t creasedEdgeCount = 0, sharpVertexCount = 0, holeCount = 0;
     std::uint64_t texCoordCount = 0, seamEdgeCount = 0; ///< edges whose two faces disagree about texture coordinates
-    Bounds bounds;                                      ///< of the vertices that faces use
+    Bounds bounds;                                      ///< of the vertices that faces use, in the world
 };
 CageSummary summarize(const Cage& cage);
 
@@ -119,6 +128,7 @@ struct DenseMesh {
     std::vector<vec2> texCoords;        ///< empty, or one a vertex
     std::vector<std::uint32_t> indices; ///< three a triangle
     std::vector<float> heights;         ///< empty, or one a vertex from -1 to 1: to be seen, never written to a file
+    Coordinates coordinates;            ///< of the positions
 
     [[nodiscard]] std::uint64_t byteCount() const;
 };
@@ -139,10 +149,11 @@ void checkMeshPath(const std::string& path);
 void checkMeshSize(const std::string& path, std::uint64_t vertexCount, std::uint64_t triangleCount, bool hasTexCoords);
 
 /// Writes by the extension of `path`, whole or not at all, through a buffer of 1 MiB: binary .ply, .obj that reads back
-/// to the same bits and has each position once, or .glb (glTF 2.0: t turned to run down). .obj and .glb leave out
-/// triangles that name a vertex (.obj: a position) twice, which their readers refuse.
-/// Throws as the two checks above, Failure::input for a mesh without triangles, arrays that disagree, indices out of
-/// range and numbers that are not finite, Failure::file when writing fails.
+/// to the same bits and has each position once, or .glb (glTF 2.0: t turned to run down). .obj and .glb omit triangles
+/// that name a vertex (.obj: a position) twice, which their readers refuse. A mesh with coordinates of its own is written
+/// in the world: as doubles in .obj and .ply (`property double x`), and in .glb, which has floats only, by the
+/// translation and scale of its node. Throws as the two checks above, Failure::input for a mesh without triangles,
+/// arrays that disagree, indices out of range and numbers that are not finite, Failure::file when writing fails.
 void writeMesh(const std::string& path, const DenseMesh& mesh, ShowProgress show = ShowProgress::never);
 
 } // namespace relief

@@ -47,6 +47,7 @@ DenseMesh denseMesh(const Cage& cage) {
     const bool hasNormals = !cage.normalCorners.empty();
     const std::vector<vec3> smooth = hasNormals ? std::vector<vec3>() : smoothNormals(cage);
     DenseMesh mesh;
+    mesh.coordinates = cage.coordinates;
     std::unordered_map<VertexKey, std::uint32_t, VertexHash> vertices;
     const auto vertexOf = [&](std::size_t corner) {
         const VertexKey key{cage.corners[corner], cage.hasTexCoords() ? cage.texCorners[corner] : 0,

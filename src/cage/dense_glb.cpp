@@ -71,6 +71,9 @@ constexpr const char* kScene = R"({
 /// The JSON chunk, filled up with spaces to a multiple of 4.
 std::string describe(const DenseMesh& mesh, const Arrays& arrays) {
     OrderedJson gltf = OrderedJson::parse(kScene);
+    const Coordinates& c = mesh.coordinates;
+    if (c.origin != dvec3(0)) gltf["nodes"][0]["translation"] = {c.origin.x, c.origin.y, c.origin.z};
+    if (c.unit != 1) gltf["nodes"][0]["scale"] = {c.unit, c.unit, c.unit};
     if (!mesh.texCoords.empty()) gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 3;
     gltf["accessors"] = arrays.accessors;
     gltf["bufferViews"] = arrays.views;

@@ -52,6 +52,16 @@ bool isDegenerate(const DenseMesh& mesh, const Places& places, std::size_t trian
     return place(0) == place(1) || place(1) == place(2) || place(2) == place(0);
 }
 
+/// In the world: doubles, where floats could not tell vertices apart.
+void putPositions(ObjLines& lines, const DenseMesh& mesh, const Places& places, Progress& progress) {
+    const auto position = [&](std::size_t i) { return mesh.positions[places.firsts[i]]; };
+    const auto inWorld = [&](std::size_t i) { return mesh.coordinates.toWorld(position(i)); };
+    if (mesh.coordinates.isIdentity())
+        putValues(lines, "v", places.count(), position, progress);
+    else
+        putValues(lines, "v", places.count(), inWorld, progress);
+}
+
 } // namespace
 
 void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
@@ -63,8 +73,7 @@ void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
         fail(Failure::input, "{}: not written: every triangle of the mesh names a position twice", file.path());
     Progress progress("writing", places.count() + mesh.texCoords.size() + mesh.normals.size() + triangleCount, show);
     ObjLines lines(file);
-    putValues(
-        lines, "v", places.count(), [&](std::size_t i) { return mesh.positions[places.firsts[i]]; }, progress);
+    putPositions(lines, mesh, places, progress);
     putValues(
         lines, "vt", mesh.texCoords.size(), [&](std::size_t i) { return mesh.texCoords[i]; }, progress);
     putValues(

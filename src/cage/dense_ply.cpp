@@ -11,7 +11,9 @@ namespace {
 
 std::string headerOf(const DenseMesh& mesh) {
     std::string properties;
-    for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) properties += fmt::format("property float {}\n", name);
+    const char* type = mesh.coordinates.isIdentity() ? "float" : "double"; // far away, floats cannot hold the world's
+    for (const char* name : {"x", "y", "z"}) properties += fmt::format("property {} {}\n", type, name);
+    for (const char* name : {"nx", "ny", "nz"}) properties += fmt::format("property float {}\n", name);
     if (!mesh.texCoords.empty()) properties += "property float s\nproperty float t\n";
     return fmt::format("ply\nformat binary_little_endian 1.0\ncomment written by relief\nelement vertex {}\n{}"
                        "element face {}\nproperty list uchar uint vertex_indices\nend_header\n",
@@ -25,7 +27,10 @@ void writePly(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
     Progress progress("writing", mesh.positions.size() + triangleCount, show);
     file.put(headerOf(mesh));
     putEach(mesh.positions.size(), progress, [&](std::size_t i) {
-        file.putValue(mesh.positions[i]);
+        if (mesh.coordinates.isIdentity())
+            file.putValue(mesh.positions[i]);
+        else
+            file.putValue(mesh.coordinates.toWorld(mesh.positions[i]));
         file.putValue(mesh.normals[i]);
         if (!mesh.texCoords.empty()) file.putValue(mesh.texCoords[i]);
     });

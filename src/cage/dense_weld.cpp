@@ -7,6 +7,7 @@ namespace relief {
 DenseMesh weldPositions(const DenseMesh& mesh) {
     const Places places = findPlaces(mesh.positions);
     DenseMesh welded;
+    welded.coordinates = mesh.coordinates;
     for (const std::uint32_t first : places.firsts) welded.positions.push_back(mesh.positions[first]);
 
     std::vector<dvec3> sums(places.count(), dvec3(0));

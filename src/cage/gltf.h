@@ -97,8 +97,13 @@ std::vector<GltfTransform> restTransforms(const GltfScene& scene);
 std::vector<glm::dmat4> worldMatrices(const GltfScene& scene, std::span<const GltfTransform> transforms);
 
 /// What moves the vertices of a node's mesh: of each joint of its skin, world * inverse bind (3.7.3.2: where the node
-/// itself stands does not matter then), or without a skin the node's own matrix alone.
-std::vector<glm::dmat4> jointMatrices(const GltfScene& scene, std::uint32_t node, std::span<const glm::dmat4> worlds);
+/// itself stands does not matter then), or without a skin the node's own matrix alone. They lead to `coordinates`.
+std::vector<glm::dmat4> jointMatrices(const GltfScene& scene, std::uint32_t node, std::span<const glm::dmat4> worlds,
+                                      const Coordinates& coordinates = {});
+
+/// A matrix that leads to the world, leading to `coordinates` instead. Weights of joints add up to 1 only as floats do:
+/// far from the origin that is too little, so it comes before joints are blended.
+glm::dmat4 leadingTo(const Coordinates& coordinates, const glm::dmat4& matrix);
 
 /// The sum of a vertex's joints by their weights; `joints` of jointMatrices.
 glm::dmat4 blendedMatrix(const GltfPrimitive& primitive, std::size_t vertex, bool isSkinned,

@@ -1,5 +1,6 @@
 #include <array>
 #include <bit>
+#include <cmath>
 #include <unordered_map>
 
 #include "cage/gltf.h"
@@ -36,15 +37,18 @@ public:
     CageBuilder(const GltfScene& scene, bool takesTexCoords)
         : scene_(scene), takesTexCoords_(takesTexCoords), worlds_(worldMatrices(scene, restTransforms(scene))) {}
 
+    /// Of the vertices that triangles use, in the coordinates of the cage.
+    Bounds bounds();
+
     void addNode(std::uint32_t node) {
-        node_ = node;
-        joints_ = jointMatrices(scene_, node, worlds_);
+        enterNode(node);
         places_.clear(), texCoords_.clear(), normals_.clear(); // separate objects stay separate where they touch
         for (const GltfPrimitive& primitive : scene_.meshes[std::size_t(scene_.nodes[node].mesh)].primitives)
             addPrimitive(primitive);
     }
 
     std::size_t degenerateCount = 0;
+    double coarsestSpacing = 0; ///< of the floats of positions, in the world
     Cage cage;
 
 private:
@@ -54,6 +58,11 @@ private:
         bool isMirrored = false;
     };
 
+    void enterNode(std::uint32_t node) {
+        node_ = node;
+        joints_ = jointMatrices(scene_, node, worlds_, cage.coordinates);
+    }
+    [[nodiscard]] dvec3 placeOf(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix) const;
     void addPrimitive(const GltfPrimitive& primitive);
     std::vector<Corner> addVertices(const GltfPrimitive& primitive);
     Corner addVertex(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix);
@@ -65,6 +74,37 @@ private:
     std::uint32_t node_ = 0;
     std::unordered_map<Key, std::uint32_t, KeyHash> places_, texCoords_, normals_; ///< of this node
 };
+
+std::vector<bool> usedVertices(const GltfPrimitive& primitive) {
+    std::vector<bool> isUsed(primitive.positions.size(), false);
+    for (const std::uint32_t vertex : primitive.triangles) isUsed[vertex] = true;
+    return isUsed;
+}
+
+dvec3 CageBuilder::placeOf(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix) const {
+    const dvec3 morphed = morphedPosition(primitive, vertex, scene_.nodes[node_].weights);
+    return dvec3(matrix * glm::dvec4(morphed, 1));
+}
+
+Bounds CageBuilder::bounds() {
+    Bounds bounds;
+    for (const std::uint32_t node : scene_.meshNodes) {
+        enterNode(node);
+        const bool isSkinned = scene_.nodes[node].skin >= 0;
+        for (const GltfPrimitive& primitive : scene_.meshes[std::size_t(scene_.nodes[node].mesh)].primitives) {
+            const std::vector<bool> isUsed = usedVertices(primitive);
+            dvec3 farthest(0); // in the space of the mesh
+            for (std::size_t i = 0; i < isUsed.size(); ++i) {
+                if (!isUsed[i]) continue;
+                bounds.add(placeOf(primitive, i, blendedMatrix(primitive, i, isSkinned, joints_)));
+                farthest = glm::max(farthest, glm::abs(dvec3(primitive.positions[i])));
+            }
+            const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(joints_[0]))));
+            coarsestSpacing = std::max(coarsestSpacing, scale * floatSpacing(farthest));
+        }
+    }
+    return bounds;
+}
 
 void CageBuilder::addPrimitive(const GltfPrimitive& primitive) {
     const std::size_t firstFace = cage.faceCount();
@@ -84,8 +124,7 @@ void CageBuilder::addPrimitive(const GltfPrimitive& primitive) {
 /// Those that triangles use, in the order of the file.
 std::vector<CageBuilder::Corner> CageBuilder::addVertices(const GltfPrimitive& primitive) {
     const bool isSkinned = scene_.nodes[node_].skin >= 0;
-    std::vector<bool> isUsed(primitive.positions.size(), false);
-    for (const std::uint32_t vertex : primitive.triangles) isUsed[vertex] = true;
+    const std::vector<bool> isUsed = usedVertices(primitive);
     std::vector<Corner> corners(isUsed.size());
     for (std::size_t vertex = 0; vertex < isUsed.size(); ++vertex)
         if (isUsed[vertex])
@@ -97,8 +136,7 @@ std::vector<CageBuilder::Corner> CageBuilder::addVertices(const GltfPrimitive& p
 CageBuilder::Corner CageBuilder::addVertex(const GltfPrimitive& primitive, std::size_t vertex,
                                            const glm::dmat4& matrix) {
     const double determinant = glm::determinant(glm::dmat3(matrix));
-    const dvec3 morphed = morphedPosition(primitive, vertex, scene_.nodes[node_].weights);
-    const vec3 p = withoutNegativeZeros(vec3(dvec3(matrix * glm::dvec4(morphed, 1))));
+    const vec3 p = withoutNegativeZeros(vec3(placeOf(primitive, vertex, matrix)));
     const auto [place, isNewPlace] =
         places_.try_emplace({bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), 0}, std::uint32_t(cage.positions.size()));
     if (isNewPlace) cage.positions.push_back(p);
@@ -149,6 +187,14 @@ std::size_t countPrimitives(const GltfScene& scene, const Has& has) {
     return count;
 }
 
+void warnOfCoarseFloats(double spacing, double size, const std::string& path, const Warn& warn) {
+    constexpr double kCoarse = 1e-5; // of the size: from there on it can be seen
+    if (size > 0 && spacing > kCoarse * size)
+        warn(fmt::format("{}: its positions are 32-bit floats, {:.2g} units apart so far from the origin of the mesh, "
+                         "and it is {:.2g} units large; move the mesh to its origin and its node away instead",
+                         path, spacing, size));
+}
+
 } // namespace
 
 Cage readGltfCage(const std::string& path, const Warn& warn) {
@@ -159,8 +205,11 @@ Cage readGltfCage(const std::string& path, const Warn& warn) {
         warn(fmt::format("{}: only some of its meshes have texture coordinates; they are ignored", path));
 
     CageBuilder builder(scene, all > 0 && textured == all);
-    for (const std::uint32_t node : scene.meshNodes) builder.addNode(node);
     Cage& cage = builder.cage;
+    const Bounds bounds = builder.bounds();
+    cage.coordinates = coordinatesFor(bounds); // before floats can make one vertex of two
+    warnOfCoarseFloats(builder.coarsestSpacing, bounds.diagonal(), path, warn);
+    for (const std::uint32_t node : scene.meshNodes) builder.addNode(node);
     if (builder.degenerateCount > 0)
         warn(fmt::format("{}: {} triangles with two corners at one place are left out", path, builder.degenerateCount));
     const bool isOneNamelessPart =

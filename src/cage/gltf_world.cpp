@@ -30,12 +30,20 @@ std::vector<glm::dmat4> worldMatrices(const GltfScene& scene, std::span<const Gl
     return worlds;
 }
 
-std::vector<glm::dmat4> jointMatrices(const GltfScene& scene, std::uint32_t node, std::span<const glm::dmat4> worlds) {
-    if (scene.nodes[node].skin < 0) return {worlds[node]};
+glm::dmat4 leadingTo(const Coordinates& coordinates, const glm::dmat4& matrix) {
+    if (coordinates.isIdentity()) return matrix;
+    glm::dmat4 local(glm::dmat3(matrix) / coordinates.unit);
+    local[3] = glm::dvec4(coordinates.toLocal(dvec3(matrix[3])), 1);
+    return local;
+}
+
+std::vector<glm::dmat4> jointMatrices(const GltfScene& scene, std::uint32_t node, std::span<const glm::dmat4> worlds,
+                                      const Coordinates& coordinates) {
+    if (scene.nodes[node].skin < 0) return {leadingTo(coordinates, worlds[node])};
     const GltfSkin& skin = scene.skins[std::size_t(scene.nodes[node].skin)];
     std::vector<glm::dmat4> joints;
     for (std::size_t i = 0; i < skin.joints.size(); ++i)
-        joints.push_back(worlds[skin.joints[i]] * skin.inverseBinds[i]);
+        joints.push_back(leadingTo(coordinates, worlds[skin.joints[i]] * skin.inverseBinds[i]));
     return joints;
 }
 

@@ -19,6 +19,7 @@ struct ObjTag {
 struct ObjScan {
     std::string text; ///< only v, vt, vn, f, o, g and usemtl; one statement a line, comments and continuations gone
     std::vector<ObjTag> tags;
+    std::vector<dvec3> positions; ///< of the v lines, whose numbers are not in the text
     std::size_t vertexCount = 0, texCoordCount = 0, normalCount = 0, faceCount = 0, cornerCount = 0;
     bool hasTexCoords = false;    ///< all faces name texture coordinates
     bool hasNormals = false;      ///< all faces name normals

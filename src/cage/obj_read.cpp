@@ -1,3 +1,4 @@
+#include <span>
 #include <sstream>
 
 #include <tiny_obj_loader.h>
@@ -14,7 +15,8 @@ namespace {
 struct Builder {
     Cage cage;
     bool hasTexCoords = false, hasNormals = false;
-    std::string name, material; ///< of the faces to come
+    std::size_t positionCount = 0; ///< so far
+    std::string name, material;    ///< of the faces to come
 
     void addFace(const tinyobj::index_t* corners, int count);
     void addFaceToPart();
@@ -28,7 +30,7 @@ std::uint32_t fromZero(int index, std::size_t count) {
 void Builder::addFace(const tinyobj::index_t* corners, int count) {
     cage.faceSizes.push_back(std::uint32_t(count));
     for (int i = 0; i < count; ++i) {
-        cage.corners.push_back(fromZero(corners[i].vertex_index, cage.positions.size()));
+        cage.corners.push_back(fromZero(corners[i].vertex_index, positionCount));
         if (hasTexCoords) cage.texCorners.push_back(fromZero(corners[i].texcoord_index, cage.texCoords.size()));
         if (hasNormals) cage.normalCorners.push_back(fromZero(corners[i].normal_index, cage.normals.size()));
     }
@@ -48,9 +50,7 @@ std::string joinWords(const char** words, int count) { return fmt::format("{}", 
 
 tinyobj::callback_t makeCallbacks() {
     tinyobj::callback_t on;
-    on.vertex_cb = [](void* data, float x, float y, float z, float) {
-        builder(data).cage.positions.emplace_back(x, y, z);
-    };
+    on.vertex_cb = [](void* data, float, float, float, float) { ++builder(data).positionCount; };
     on.texcoord_cb = [](void* data, float s, float t, float) { builder(data).cage.texCoords.emplace_back(s, t); };
     on.normal_cb = [](void* data, float x, float y, float z) { builder(data).cage.normals.emplace_back(x, y, z); };
     on.index_cb = [](void* data, tinyobj::index_t* corners, int count) { builder(data).addFace(corners, count); };
@@ -61,10 +61,13 @@ tinyobj::callback_t makeCallbacks() {
 }
 
 Cage buildArrays(ObjScan& scan, const std::string& name) {
-    Builder builder{
-        .cage = {}, .hasTexCoords = scan.hasTexCoords, .hasNormals = scan.hasNormals, .name = "", .material = ""};
+    Builder builder{.cage = {},
+                    .hasTexCoords = scan.hasTexCoords,
+                    .hasNormals = scan.hasNormals,
+                    .positionCount = 0,
+                    .name = "",
+                    .material = ""};
     Cage& cage = builder.cage;
-    cage.positions.reserve(scan.vertexCount);
     cage.faceSizes.reserve(scan.faceCount);
     cage.corners.reserve(scan.cornerCount);
     cage.texCoords.reserve(scan.texCoordCount);
@@ -72,10 +75,10 @@ Cage buildArrays(ObjScan& scan, const std::string& name) {
 
     std::istringstream stream(std::move(scan.text));
     tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &builder);
-    if (cage.positions.size() != scan.vertexCount || cage.texCoords.size() != scan.texCoordCount ||
+    if (builder.positionCount != scan.vertexCount || cage.texCoords.size() != scan.texCoordCount ||
         cage.faceCount() != scan.faceCount || cage.corners.size() != scan.cornerCount)
         fail(Failure::internal, "{}: tinyobjloader read {} vertices and {} faces of {} and {}", name,
-             cage.positions.size(), cage.faceCount(), scan.vertexCount, scan.faceCount);
+             builder.positionCount, cage.faceCount(), scan.vertexCount, scan.faceCount);
 
     if (!scan.hasTexCoords) cage.texCoords.clear();
     if (!scan.hasNormals) cage.normals.clear();
@@ -84,11 +87,22 @@ Cage buildArrays(ObjScan& scan, const std::string& name) {
     return std::move(builder.cage);
 }
 
+/// Vertices without a face, often at the origin, do not say where the cage is.
+Coordinates coordinatesOf(const Cage& cage, std::span<const dvec3> positions) {
+    Bounds bounds;
+    for (const std::uint32_t corner : cage.corners) bounds.add(positions[corner]);
+    return coordinatesFor(bounds);
+}
+
 } // namespace
 
-Cage parseObj(const std::string& text, const std::string& name, const Warn& warn) {
+Cage parseObj(const std::string& text, const std::string& name, const Warn& warn,
+              const std::optional<Coordinates>& coordinates) {
     ObjScan scan = scanObj(text, name, warn);
     Cage cage = buildArrays(scan, name);
+    cage.coordinates = coordinates ? *coordinates : coordinatesOf(cage, scan.positions);
+    cage.positions.reserve(scan.positions.size());
+    for (const dvec3& p : scan.positions) cage.positions.emplace_back(cage.coordinates.toLocal(p));
     applyObjTags(scan.tags, cage, name, warn);
     removeDegenerateFaces(cage); // tags count them
     cage.missingTexCoords = scan.missingTexCoords;

@@ -82,6 +82,7 @@ public:
 private:
     void scanLine(std::string_view line);
     void scanNumbers(Kind kind);
+    void scanPosition();
     void scanFace();
     void scanCorner(std::string_view corner, std::array<bool, kindCount>& has);
     std::size_t resolveIndex(Kind kind, std::string_view word);
@@ -92,6 +93,7 @@ private:
     void scanTag();
     [[nodiscard]] std::array<std::size_t, 3> scanTagSizes(std::string_view sizes) const;
     float scanFloat(std::string_view word) const;
+    double scanCoordinate(std::string_view word) const;
     void splitWords(std::string_view rest);
     void keepWords(std::string_view keyword);
     void warnOnce(std::string_view keyword);
@@ -172,8 +174,16 @@ void ObjScanner::scanNumbers(Kind kind) {
     const std::size_t fewest = kFewest[kind], most = kMost[kind];
     if (words_.size() < fewest || words_.size() > most)
         failHere("a {} has {} to {} numbers, this one has {}", kKindNames[kind], fewest, most, words_.size());
-    for (const std::string_view word : words_) scanFloat(word);
     ++values_[kind].count;
+    if (kind == position) return scanPosition();
+    for (const std::string_view word : words_) scanFloat(word);
+}
+
+/// Kept in double precision: far from the origin, floats are farther apart than the vertices.
+void ObjScanner::scanPosition() {
+    dvec3& p = result_.positions.emplace_back();
+    for (int k = 0; k < 3; ++k) p[k] = scanCoordinate(words_[std::size_t(k)]);
+    for (const std::string_view word : std::span(words_).subspan(3)) scanFloat(word);
 }
 
 void ObjScanner::scanFace() {
@@ -307,6 +317,15 @@ float ObjScanner::scanFloat(std::string_view word) const {
     return float(*value);
 }
 
+double ObjScanner::scanCoordinate(std::string_view word) const {
+    const std::optional<double> value = parseNumber<double>(word);
+    if (!value || !std::isfinite(*value))
+        failHere("{} is not a finite number; write digits with a decimal point", inQuotes(word));
+    if (std::abs(*value) > kFarthestCoordinate)
+        failHere("{} is too far from the origin; up to {} is possible", inQuotes(word), kFarthestCoordinate);
+    return *value;
+}
+
 void ObjScanner::splitWords(std::string_view rest) {
     words_.clear();
     while (!rest.empty() && rest[0] != '#') {
@@ -317,6 +336,10 @@ void ObjScanner::splitWords(std::string_view rest) {
 
 void ObjScanner::keepWords(std::string_view keyword) {
     result_.text.append(keyword);
+    if (keyword == "v") {
+        result_.text.append(" 0 0 0\n"); // its place in the order of lines is all that is needed
+        return;
+    }
     for (const std::string_view word : words_) result_.text.append(" ").append(word);
     result_.text.push_back('\n');
 }

@@ -21,7 +21,13 @@ std::string oneLine(std::string name) {
 }
 
 void putValues(Text& text, const Cage& cage) {
-    for (const vec3& p : cage.positions) put(text, "v {} {} {}\n", p.x, p.y, p.z);
+    for (const vec3& local : cage.positions) {
+        const dvec3 p = cage.coordinates.toWorld(local);
+        if (cage.coordinates.isIdentity())
+            put(text, "v {} {} {}\n", local.x, local.y, local.z); // fewest digits that read back to the same float
+        else
+            put(text, "v {} {} {}\n", p.x, p.y, p.z);
+    }
     for (const vec2& st : cage.texCoords) put(text, "vt {} {}\n", st.x, st.y);
     for (const vec3& n : cage.normals) put(text, "vn {} {} {}\n", n.x, n.y, n.z);
 }

@@ -84,6 +84,7 @@ CageSummary summarize(const Cage& cage) {
         summary.maxValence = std::max<std::uint64_t>(summary.maxValence, valence);
         if (valence != regular && !around.isOnBoundary[vertex]) ++summary.irregularVertexCount;
     }
+    summary.bounds = cage.coordinates.toWorld(summary.bounds);
     return summary;
 }
 

@@ -1,7 +1,22 @@
 // Layers: what a pixel sees besides light.
+#include <algorithm>
+
 #include "frame/renderer_parts.h"
 
 namespace relief {
+namespace {
+
+/// Where nothing is seen the depth stays behind everything.
+void scaleLengths(std::vector<float>& values, double unit) {
+    for (std::size_t first = 0; first < values.size(); first += kLayerChannels) {
+        float &depth = values[first + kLayerDepth], &height = values[first + kLayerHeight];
+        const bool isSeen = values[first + kLayerFace] >= 0;
+        depth = float(isSeen ? unit * depth : std::max(unit, 1.0) * depth);
+        height = float(unit * height);
+    }
+}
+
+} // namespace
 
 void Renderer::Parts::layerPass(VkCommandBuffer commands, const Frame& frame) {
     Rendering rendering(commands, trianglesInFlight(frame),
@@ -42,6 +57,7 @@ void Renderer::Parts::renderLayers(const Model& model, const RenderOptions& opti
     });
     const auto* values = static_cast<const float*>(layerTargets->values.mapped);
     picture.layerValues.assign(values, values + std::size_t(desc.width) * std::size_t(desc.height) * kLayerChannels);
+    if (options.unit != 1) scaleLengths(picture.layerValues, options.unit);
     picture.layers = options.layers;
 }
 

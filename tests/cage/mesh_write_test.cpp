@@ -1,6 +1,7 @@
 // Dense meshes in files, read back by hand.
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <span>
 
@@ -119,7 +120,13 @@ TEST(WritePly, leavesOutTextureCoordinatesThatAreNotThere) { expectPly(squareWit
 
 void expectObjRoundTrip(const DenseMesh& mesh) {
     const Cage cage = parseObj(written(mesh, "a.obj"), "a.obj");
-    expectSameBits(cage.positions, mesh.positions);
+    if (cage.coordinates.isIdentity()) expectSameBits(cage.positions, mesh.positions);
+    // In a unit of its own the smallest numbers are fewer.
+    ASSERT_EQ(cage.positions.size(), mesh.positions.size());
+    const double smallest = cage.coordinates.unit * std::numeric_limits<float>::denorm_min();
+    for (std::size_t i = 0; i < cage.positions.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            ASSERT_NEAR(cage.coordinates.toWorld(cage.positions[i])[k], mesh.positions[i][k], smallest) << i;
     expectSameBits(cage.normals, mesh.normals);
     expectSameBits(cage.texCoords, mesh.texCoords);
     EXPECT_EQ(cage.faceSizes, Indices(mesh.indices.size() / 3, 3));

@@ -51,8 +51,8 @@ TEST(ObjLoader, readsASquare) {
 }
 
 TEST(ObjLoader, readsNumbersInAllSpellings) {
-    const Cage cage = parse("v +1.5 -.25 1e-3\nv 2. 1E+2 -0\nv 0.1 1234567 3.4e38\nf 1 2 3\n");
-    EXPECT_EQ(cage.positions, (std::vector<vec3>{{1.5f, -0.25f, 1e-3f}, {2, 100, 0}, {0.1f, 1234567, 3.4e38f}}));
+    const Cage cage = parse("v +1.5 -.25 1e-3\nv 2. 1E+2 -0\nv 0.1 1234567 -7e5\nf 1 2 3\n");
+    EXPECT_EQ(cage.positions, (std::vector<vec3>{{1.5f, -0.25f, 1e-3f}, {2, 100, 0}, {0.1f, 1234567, -7e5f}}));
 }
 
 TEST(ObjLoader, readsTextureCoordinatesAndNormals) {
@@ -283,11 +283,17 @@ TEST(ObjWriter, normalsAndAllTagsComeBack) {
 TEST(ObjWriter, extremeNumbersComeBack) {
     const TemporaryFolder folder;
     Cage cage = cube();
-    constexpr float kLargest = std::numeric_limits<float>::max(), kSmallest = std::numeric_limits<float>::denorm_min();
+    constexpr float kLargest = 1e6f, kSmallest = std::numeric_limits<float>::denorm_min();
     cage.positions[0] = {kLargest, -kLargest, kSmallest};
     cage.positions[1] = {1.0f / 3, std::nextafter(1.0f, 2.0f), -0.0f};
     writeObj(folder / "a.obj", cage);
     expectSame(readCage(folder / "a.obj"), cage);
+
+    cage.positions[0].x = 3.4e32f;
+    writeObj(folder / "b.obj", cage);
+    const Cage again = readCage(folder / "b.obj"); // in a unit of its own
+    EXPECT_EQ(vec3(again.coordinates.toWorld(again.positions[0])).x, cage.positions[0].x);
+    EXPECT_EQ(vec3(again.coordinates.toWorld(again.positions[1])).y, cage.positions[1].y);
 }
 
 TEST(ObjWriter, aNameCannotBreakItsLine) {
