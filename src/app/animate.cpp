@@ -140,7 +140,7 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
     if (loaded_.dense && loaded_.animation)
         fail(Failure::usage, "{}: what moves is a subdivision surface; name its --scheme", surface.cage);
     frames_ = framesOf(args, loaded_.animation.get());
-    shading_ = loadShading(picture_);
+    shading_ = loadShading(picture_, surface, loaded_.cage, output.warn());
     const std::vector<dvec3> points = outlineOfAll(loaded_);
     holdCamera(picture_.camera, points, args.turntable > 0);
     for (const dvec3& p : points) bounds_.add(p);

@@ -75,7 +75,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
         std::launch::async, [&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
     Loaded loaded = load(args.surface, args.output);
     progress.advance();
-    Shading shading = loadShading(args.picture);
+    Shading shading = loadShading(args.picture, args.surface, loaded.cage, args.output.warn());
     const std::vector<dvec3> points = outlineOf(loaded);
     progress.advance();
 
