@@ -245,31 +245,54 @@ int stripHeight(const OIIO::ImageSpec& spec, int channels) {
     return spec.tile_height > 0 ? std::max(rows / spec.tile_height, 1) * spec.tile_height : rows;
 }
 
+/// Channels from `first` to before `end`, rows from `y` to before `y + count`, as samples of `type` at `target`.
+struct Strip {
+    int first = 0, end = 0, y = 0, count = 0;
+};
+void readStrip(const OpenImage& source, const Strip& strip, const OIIO::TypeDesc& type, void* target) {
+    const OIIO::ImageSpec& spec = source.spec;
+    OIIO::ImageInput& input = *source.input;
+    const int top = spec.y + strip.y, bottom = top + strip.count;
+    const SilentStderr silence(source.format == "png");
+    const bool isRead =
+        spec.tile_height > 0
+            ? input.read_tiles(source.part, 0, spec.x, spec.x + spec.width, top, bottom, spec.z, spec.z + 1,
+                               strip.first, strip.end, type, target)
+            : input.read_scanlines(source.part, 0, top, bottom, spec.z, strip.first, strip.end, type, target);
+    // The TIFF reader returns true for strips that it could not read.
+    if (!isRead || input.has_error()) failToDecode(source.path, source.format, reason(input));
+}
+
+/// The same converted to floats. `stored` is its memory.
+void readNumbers(const OpenImage& source, const Strip& strip, std::vector<char>& stored, std::vector<float>& texels) {
+    const OIIO::TypeDesc type = source.spec.format;
+    const auto isUnread = [](char byte) { return byte == '\xff'; };
+    stored.assign(texels.size() * type.size(), '\xff');
+    readStrip(source, strip, type, stored.data());
+    // OpenImageIO 2.4 leaves doubles in uncompressed tiles and in a single row of a TIFF alone, and returns true.
+    if (type == OIIO::TypeDesc::DOUBLE && std::all_of(stored.end() - sizeof(double), stored.end(), isUnread))
+        failToDecode(source.path, source.format,
+                     "64-bit samples in tiles or in a single row are not supported; store 32-bit ones");
+    convertNumbers(type, stored, texels);
+}
+
 /// Gives `take` the channels from `first` to before `end`, strip by strip.
 void readRows(const OpenImage& source, int first, int end, const TakeRows& take) {
     const OIIO::ImageSpec& spec = source.spec;
     const bool isConverted = isSignedInteger(spec.format) || spec.format == OIIO::TypeDesc::DOUBLE;
-    const OIIO::TypeDesc type = isConverted ? spec.format : OIIO::TypeFloat;
     const int step = stripHeight(spec, end - first);
     std::vector<float> texels;
     std::vector<char> stored;
-    for (int y = 0; y < spec.height; y += step) {
-        const int count = std::min(step, spec.height - y), top = spec.y + y;
-        texels.resize(std::size_t(count) * std::size_t(spec.width) * std::size_t(end - first));
-        if (isConverted) stored.resize(texels.size() * type.size());
-        void* target = isConverted ? static_cast<void*>(stored.data()) : texels.data();
-        {
-            const SilentStderr silence(source.format == "png");
-            const bool isRead =
-                spec.tile_height > 0
-                    ? source.input->read_tiles(source.part, 0, spec.x, spec.x + spec.width, top, top + count, spec.z,
-                                               spec.z + 1, first, end, type, target)
-                    : source.input->read_scanlines(source.part, 0, top, top + count, spec.z, first, end, type, target);
-            // The TIFF reader returns true for strips that it could not read.
-            if (!isRead || source.input->has_error()) failToDecode(source.path, source.format, reason(*source.input));
-        }
-        if (isConverted) convertNumbers(type, stored, texels);
-        take(y, count, texels);
+    for (Strip strip{first, end}; strip.y < spec.height; strip.y += strip.count) {
+        const int rest = spec.height - strip.y;
+        strip.count = std::min(step, rest);
+        if (rest == step + 1 && spec.tile_height == 0) strip.count = rest; // a last row alone may not be read
+        texels.resize(std::size_t(strip.count) * std::size_t(spec.width) * std::size_t(end - first));
+        if (isConverted)
+            readNumbers(source, strip, stored, texels);
+        else
+            readStrip(source, strip, OIIO::TypeFloat, texels.data());
+        take(strip.y, strip.count, texels);
     }
     if (!source.input->close()) failToDecode(source.path, source.format, reason(*source.input));
 }
