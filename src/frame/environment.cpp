@@ -160,7 +160,7 @@ Environment loadEnvironment(const std::string& path) {
                 const float value = file.at(x, y)[c];
                 // Sums over all pixels stay finite, and the sun has 1.6e9 candela per square metre.
                 if (!std::isfinite(value) || value < 0 || value > kMostRadiance)
-                    fail(Failure::input, "{}: pixel {},{} is {}; radiance is a number in 0..{}", path, x, y, value,
+                    fail(Failure::input, "{}: pixel {},{} is {}; radiance is a number in 0..{:g}", path, x, y, value,
                          kMostRadiance);
                 image.at(x, y)[c] = value;
             }

@@ -68,8 +68,8 @@ TEST(UnsignedIntegers, areSharesOfTheLargest) {
 
 TEST(Doubles, pastTheRangeOfFloatsAreFinite) {
     const TemporaryFolder folder;
-    putFile(folder / "a.tif",
-            tiffOf<double>({.width = 4, .height = 1, .sampleFormat = 3}, {-1.7e308, 2.5, 1e300, NAN}));
+    const std::vector<double> samples{-1.7e308, 2.5, 1e300, NAN, 1, 2, 3, 4};
+    putFile(folder / "a.tif", tiffOf<double>({.width = 4, .height = 2, .sampleFormat = 3}, samples));
     const std::vector<float> texels = readImage(folder / "a.tif").texels;
     constexpr float kMost = std::numeric_limits<float>::max();
     EXPECT_EQ(texels[0], -kMost);
@@ -78,14 +78,12 @@ TEST(Doubles, pastTheRangeOfFloatsAreFinite) {
     EXPECT_TRUE(std::isnan(texels[3]));
 }
 
-TEST(Doubles, inRowsThatOpenImageIODoesNotReadAreRefused) {
+// OpenImageIO 2.4 does not read these and says nothing: a flat map without a word would be worse than none.
+TEST(Doubles, thatComeOutAsZerosAreRefused) {
     const TemporaryFolder folder;
     putFile(folder / "a.tif", tiffOf<double>({.width = 2, .height = 1, .sampleFormat = 3}, {1, 2}));
     expectFailure(Failure::input, {folder / "a.tif", "64-bit samples", "not supported"},
                   [&] { readImage(folder / "a.tif"); });
-    std::vector<double> samples(257, 3);
-    putFile(folder / "a.tif", tiffOf<double>({.width = 1, .height = 257, .sampleFormat = 3}, samples));
-    EXPECT_EQ(readImage(folder / "a.tif").texels, std::vector<float>(257, 3)) << "the last row does not stand alone";
 }
 
 TEST(NoData, isReadFromTheTagOfTheFirstPage) {
