@@ -32,7 +32,10 @@ std::string bytesOf(T value, bool isBigEndian) {
 template <typename T>
 std::string tiffOf(const TiffDesc& desc, const std::vector<T>& samples) {
     std::string pixels;
-    for (const T sample : samples) pixels += bytesOf(sample, desc.isBigEndian);
+    pixels.assign(reinterpret_cast<const char*>(samples.data()), samples.size() * sizeof(T));
+    if (desc.isBigEndian)
+        for (std::size_t at = 0; at < pixels.size(); at += sizeof(T))
+            std::reverse(pixels.begin() + long(at), pixels.begin() + long(at + sizeof(T)));
     const std::string text = desc.noData.empty() ? "" : desc.noData + std::string(1, '\0');
     const auto entryCount = std::uint16_t(text.empty() ? 10 : 11);
     const auto directoryBytes = std::uint32_t(2 + 12 * entryCount + 4);

@@ -146,26 +146,23 @@ TEST_F(Maps, thatAreDamagedAreOneLine) {
                   {"a.png", "damaged"});
 }
 
-// 8-bit texels of 16384 x 16384: as floats they would take a gigabyte.
+// 8-bit texels that would take 268 MB as floats, counted with 240 MB of address space beyond a small picture's.
 TEST_F(Maps, ofAnySizeAreCountedInLittleMemory) {
-    const int side = 16384;
-    const Image row{side, 256, 1, std::vector<float>(std::size_t(side) * 256, 0.25f)};
-    writeImage(folder / "strip.tif", row, SampleType::uint8);
-    // A large flat file is quick to make from one strip whose bytes every row shares.
-    TiffDesc desc{.width = side, .height = side};
-    std::string whole = tiffOf<std::uint8_t>(desc, std::vector<std::uint8_t>(std::size_t(side) * side, 64));
-    putFile(folder / "large.tif", whole);
-    whole = {};
-    const std::string script =
-        fmt::format("ulimit -v 900000; exec {} info --json {}", RELIEF_PROGRAM, folder / "large.tif");
-    EXPECT_EQ(std::system((script + " > " + (folder / "out.json")).c_str()), 0);
-    EXPECT_TRUE(contains(readFile(folder / "out.json"), "16384"));
+    const auto countWithin = [&](int side, int kilobytes) {
+        const std::vector<std::uint8_t> samples(std::size_t(side) * std::size_t(side), 64);
+        putFile(folder / "large.tif", tiffOf<std::uint8_t>({.width = side, .height = side}, samples));
+        const std::string program = fmt::format("{} info {}", RELIEF_PROGRAM, folder / "large.tif");
+        return std::system(fmt::format("ulimit -v {}; exec {} > /dev/null 2>&1", kilobytes, program).c_str()) == 0;
+    };
+    int least = 100'000;
+    while (least < 2'000'000 && !countWithin(16, least)) least += 50'000;
+    EXPECT_TRUE(countWithin(8192, least + 190'000)) << least;
 }
 
 TEST_F(Maps, ofHugeHeightsAreLit) {
     const Image waves = sineImage(32, 2);
     for (const char* format : {"float", "unorm16", "unorm8", "bc4"})
-        for (const double size : {1e6, 1e9, 1e12}) {
+        for (const double size : {1e6, 1e12}) {
             Image image = waves;
             for (float& texel : image.texels) texel *= float(size);
             writeImage(folder / "h.exr", image, SampleType::real);
