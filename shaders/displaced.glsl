@@ -35,6 +35,15 @@ void mendTangents(inout LimitFrame f, vec2 uv, float leafScale) {
     f.pv = vec3(0, 0, -1);
 }
 
+// The direction of m, or n where it has none. m grows with the square of heights and of their slopes: the square of
+// its length may be past the range of floats where m itself is not.
+vec3 unitOr(vec3 m, vec3 n) {
+    float largest = max(abs(m.x), max(abs(m.y), abs(m.z)));
+    if (!(largest > 1e-18 && largest < 1e18)) m /= largest;
+    float square = dot(m, m);
+    return square > 0.0 && !isinf(square) ? normalize(m) : n;
+}
+
 // A point of the limit surface, not displaced yet.
 struct SurfacePoint {
     LimitFrame frame;
@@ -203,7 +212,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
     if (count > 1u) direction = dot(direction, direction) > 1e-6 ? normalize(direction) : ownersNormal;
     precise vec3 q = displacedPoint(s.p, direction, s.h);
     s.q = q;
-    s.normal = dot(s.normal, s.normal) > 0.0 ? normalize(s.normal) : s.n;
+    s.normal = unitOr(s.normal, s.n);
     if (kWantsTexCoords && !isOwn) s.st = ownTexCoords(face, faceUV);
     return s;
 }
@@ -218,7 +227,7 @@ DisplacedSample displacedInLeaf(NetPair nets, Leaf leaf, vec2 uv, float level) {
     s.h = height.h;
     precise vec3 q = displacedPoint(s.p, s.n, s.h);
     s.q = q;
-    s.normal = dot(s.normal, s.normal) > 0.0 ? normalize(s.normal) : s.n;
+    s.normal = unitOr(s.normal, s.n);
     return s;
 }
 #endif

@@ -127,5 +127,6 @@ void main() {
         }
         sum /= float(count);
     }
+    sum.rgb = min(sum.rgb, vec3(65504.0)); // the largest half float: brighter light is white, not infinite
     scene.pictureTarget.at[at.y * scene.pictureSize.x + at.x] = uvec2(packHalves(sum.rg), packHalves(sum.ba));
 }

@@ -169,7 +169,7 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
         polygons_.emplace(loaded_.cage, *loaded_.animation);
     }
     frames_ = framesOf(args, loaded_.animation.get());
-    shading_ = loadShading(picture_);
+    shading_ = loadShading(picture_, surface, loaded_.cage, output.warn());
     isDense_ = loaded_.dense.has_value();
     const std::vector<dvec3> points = outlineOfAll(loaded_);
     enter(loaded_.coordinates(), picture_.camera);

@@ -77,9 +77,39 @@ json ofSeams(SurfaceArgs args, const std::string& cage, bool isQuiet) {
     return result;
 }
 
+/// What each channel holds, counted strip by strip: the picture is never in memory as a whole.
+std::vector<HeightCensus> censusOf(const std::string& path, const ImageInfo& info) {
+    std::vector<HeightCensus> channels(std::size_t(info.channels), HeightCensus(info));
+    readImageRows(path, [&](int, int, std::span<const float> texels) {
+        for (std::size_t i = 0; i < texels.size(); i += channels.size())
+            for (std::size_t c = 0; c < channels.size(); ++c) channels[c].add(texels[i + c]);
+    });
+    for (HeightCensus& channel : channels) channel.finish();
+    return channels;
+}
+
+/// Ranges of heights, voids, and texels that are no numbers.
+json ofTexels(const std::string& path, const ImageInfo& info) {
+    json ranges = json::array(), voids = json::object(), notFinite = json::object();
+    const std::vector<HeightCensus> channels = censusOf(path, info);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const HeightCensus& channel = channels[c];
+        const std::string& name = info.channelNames[c];
+        const bool isEmpty = channel.lowest() > channel.highest();
+        ranges.push_back(isEmpty ? json::array() : json{channel.lowest(), channel.highest()});
+        if (channel.voidCount() > 0) voids[name] = {{"count", channel.voidCount()}, {"value", channel.voidReason()}};
+        if (channel.notFiniteCount() == 0) continue;
+        const std::uint64_t first = channel.firstNotFinite(), width = std::uint64_t(info.width);
+        notFinite[name] = {{"count", channel.notFiniteCount()},
+                           {"first", {{"column", first % width}, {"row", first / width}}}};
+    }
+    return {{"ranges", ranges}, {"voids", voids}, {"not_finite", notFinite}};
+}
+
 json ofPicture(const std::string& path) {
     const ImageInfo info = readImageInfo(path);
     const MapFormat format = fileFormat(info);
+    const std::vector<std::string> layers = layersOf(info);
     json result{{"file", path},
                 {"kind", "picture"},
                 {"format", info.format},
@@ -87,21 +117,13 @@ json ofPicture(const std::string& path) {
                 {"height", info.height},
                 {"sample", info.sample},
                 {"channels", info.channelNames},
+                {"layers", layers.size() > 1 ? json(layers) : json::array()},
                 {"bytes", std::uint64_t(info.width) * info.height * info.channels * info.sampleBytes},
-                {"default_mid", info.isFloat ? 0.0 : 0.5},
+                {"default_mid", info.hasUnit() ? 0.0 : 0.5},
                 {"map_format", wordOf(format)},
                 {"map_bytes", mapBytes(format, info.width, info.height)}};
-    const Image image = readImage(path);
-    json ranges = json::array();
-    for (int c = 0; c < image.channels; ++c) {
-        float lowest = image.texels[c], highest = lowest;
-        for (std::size_t i = c; i < image.texels.size(); i += image.channels) {
-            lowest = std::min(lowest, image.texels[i]);
-            highest = std::max(highest, image.texels[i]);
-        }
-        ranges.push_back({lowest, highest});
-    }
-    result["ranges"] = ranges;
+    if (info.noData) result["no_data"] = fmt::format("{}", *info.noData);
+    result.update(ofTexels(path, info));
     return result;
 }
 
@@ -143,7 +165,7 @@ std::string text(const json& value) {
 void print(const json& object) {
     for (const auto& [key, value] : object.items()) {
         const bool isNothing = (value.is_number() && value.get<double>() == 0 && key != "default_mid") ||
-                               (value.is_array() && value.empty());
+                               (value.is_structured() && value.empty());
         if (isNothing) continue;
         const bool isSize = key == "bytes" || key == "map_bytes" || key == "memory";
         std::string name = key;

@@ -1,6 +1,7 @@
 // relief: displaced subdivision surfaces on any Vulkan 1.3 device.
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <iostream>
 #include <new>
 #include <set>
@@ -75,6 +76,17 @@ std::string hintFor(const CLI::App& top, int argc, char** argv) {
     return fmt::format("name what to do first: {} (relief --help explains)", verbs);
 }
 
+/// Numbers are finite, whatever the option and its range: CLI::Range lets "nan" through.
+void wantFiniteNumbers(CLI::App& verb) {
+    const auto check = [](const std::string& word) {
+        double value = 0;
+        const bool isNumber = CLI::detail::lexical_cast(word, value);
+        return isNumber && !std::isfinite(value) ? fmt::format("{} is not a finite number", word) : std::string();
+    };
+    const auto isNumber = [](const CLI::Option* option) { return option->get_type_name().starts_with("FLOAT"); };
+    for (CLI::Option* option : verb.get_options(isNumber)) option->check(CLI::Validator(check, ""));
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Renders, animates, bakes and measures displaced subdivision surfaces.", "relief");
     app.set_version_flag("--version", "relief 0.1.0");
@@ -86,6 +98,7 @@ int run(int argc, char** argv) {
     for (const Command& command : kCommands) {
         CLI::App* verb = app.add_subcommand(command.name, command.description);
         verb->callback([&chosen, action = command.add(*verb)] { chosen = action; });
+        wantFiniteNumbers(*verb);
     }
     try {
         app.parse(argc, argv);

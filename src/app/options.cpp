@@ -24,6 +24,13 @@ CLI::Validator numberIn(double lowest, double highest) {
     return {check, ""};
 }
 
+CLI::Validator notNegative() {
+    const auto check = [](const std::string& word) {
+        return word.starts_with('-') ? fmt::format("{} is no channel; they count from 0", word) : std::string();
+    };
+    return {check, ""};
+}
+
 CLI::Validator anyNumber() { return numberIn(-1e12, 1e12); }
 CLI::Validator anyPlace() { return numberIn(-kFarthestCoordinate, kFarthestCoordinate); } // in the units of any cage
 
@@ -142,11 +149,12 @@ void addSurfaceOptions(CLI::App& app, SurfaceArgs& args) {
     listed(app.add_option("--height", args.height, "height map: .exr .tif .png .hdr"), "MAP", group);
     listed(app.add_option("--scale", args.scale, "cage units for one unit of stored height (1)")->check(anyPlace()),
            "S", group);
-    listed(app.add_option("--mid", args.mid, "stored value without displacement (0.5 integer files, 0 float files)")
+    listed(app.add_option("--mid", args.mid, "stored value without displacement (0; 0.5 in files of unsigned integers)")
                ->check(anyNumber()),
            "M", group);
-    listed(app.add_option("--channel", args.channel, "channel of the map, from 0 (0)")->check(CLI::Range(0, 255)), "C",
-           group);
+    listed(app.add_option("--channel", args.channel, "channel or layer of the map by name, or by number from 0 (0)")
+               ->check(notNegative()),
+           "C", group);
     listed(addWord(app, "--wrap", args.wrap, "outside the map: repeat it, or clamp to its border (repeat)",
                    {"repeat", "clamp"}),
            "WRAP", group);
@@ -280,24 +288,9 @@ void checkValidation(const Device& device) {
 
 namespace {
 
-constexpr std::pair<const char*, MapFormat> kMapFormats[] = {{"float", MapFormat::real},
-                                                             {"half", MapFormat::half},
-                                                             {"unorm16", MapFormat::unorm16},
-                                                             {"unorm8", MapFormat::unorm8},
-                                                             {"bc4", MapFormat::bc4}};
-
-/// Nothing for auto.
-std::optional<MapFormat> mapFormatOf(const std::string& word) {
-    for (const auto& [name, format] : kMapFormats)
-        if (word == name) return format;
-    return {};
 }
 
 } // namespace
-
-std::string wordOf(MapFormat format) {
-    return std::ranges::find(kMapFormats, format, &std::pair<const char*, MapFormat>::second)->first;
-}
 
 HeightSpace heightSpaceOf(const std::string& word) {
     return word == "stretch" ? HeightSpace::stretch : HeightSpace::absolute;
@@ -326,18 +319,8 @@ Loaded load(const SurfaceArgs& args, const Output& output, const std::string& al
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
              "catmark, loop or bilinear",
              args.cage);
-    if (!args.height.empty()) {
-        const HeightOptions options{.mid = args.mid,
-                                    .scale = args.scale,
-                                    .channel = args.channel,
-                                    .wrap = args.wrap == "clamp" ? Wrap::clamp : Wrap::repeat,
-                                    .format = mapFormatOf(args.mapFormat),
-                                    .limits = {}};
-        loaded.height = loadHeightMap(args.height, options, output.warn());
-        suitHeights(loaded, output.warn());
-        if (!loaded.cage.hasTexCoords())
-            output.warn()(fmt::format("{}: no texture coordinates: every face takes the whole map", args.cage));
-    }
+    loaded.height = loadHeights(args, loaded.cage, output.warn());
+    if (loaded.height) suitHeights(loaded, output.warn());
     loaded.animation = animationOf(args.pose, loaded.cage, output); // the unit is known now
     weldLoaded(loaded, args.weld);
     if (!isDense && args.weld.empty()) warnOfCoincidence(loaded.cage, args.cage, output.warn());

@@ -41,8 +41,8 @@ struct SurfaceArgs {
     std::string weld; ///< distance; "": vertices stay as they are
     std::string height;
     std::optional<double> scale, mid;
-    int channel = 0;
-    std::string wrap = "repeat";
+    std::string channel;
+    std::string wrap; ///< "": repeat, with a warning where that shows
     std::string mapFormat = "auto";
     PoseArgs pose;
 };
@@ -101,7 +101,7 @@ struct Shading {
     std::optional<Image> albedo;
     std::optional<Environment> environment;
 };
-Shading loadShading(const PictureArgs& args);
+Shading loadShading(const PictureArgs& args, const SurfaceArgs& surface, const Cage& cage, const Warn& warn);
 
 NormalKind normalKind(const std::string& word);
 /// "": tessellation where the device has it, else grid.
@@ -133,6 +133,10 @@ struct Loaded {
         return animation && restPositions.empty() ? animation->coordinates() : cage.coordinates;
     }
 };
+/// The map of --height, or nothing. Warns where it repeats unasked, and of a cage without texture coordinates.
+std::optional<HeightMap> loadHeights(const SurfaceArgs& args, const Cage& cage, const Warn& warn);
+/// Warns where the cage's texture coordinates leave the unit square and --wrap does not say what the map is there.
+void warnOutsideMap(const SurfaceArgs& args, const Cage& cage, const std::string& map, const Warn& warn);
 /// What moves the cage, or null.
 std::unique_ptr<Animation> animationOf(const PoseArgs& args, const Cage& cage, const Output& output);
 /// Moves the cage to the pose of --time, its normals with it.

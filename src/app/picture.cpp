@@ -94,14 +94,4 @@ Finish finishOf(const PictureArgs& args) {
     return finish;
 }
 
-Shading loadShading(const PictureArgs& args) {
-    Shading shading;
-    if (!args.albedo.empty()) shading.albedo = readImage(args.albedo);
-    if (shading.albedo && shading.albedo->channels < 3)
-        fail(Failure::input, "{}: an albedo map has 3 channels, this one has {}", args.albedo,
-             shading.albedo->channels);
-    if (!args.environment.empty()) shading.environment = loadEnvironment(args.environment);
-    return shading;
-}
-
 } // namespace relief::app

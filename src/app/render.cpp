@@ -79,7 +79,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     Loaded loaded = load(args.surface, args.output, args.picture.albedo);
     warnOfPlainTags(loaded, args.surface, args.output.warn());
     progress.advance();
-    Shading shading = loadShading(args.picture);
+    Shading shading = loadShading(args.picture, args.surface, loaded.cage, args.output.warn());
     const std::vector<dvec3> points = outlineOf(loaded);
     progress.advance();
 

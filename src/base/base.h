@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -96,16 +98,40 @@ struct ImageLimits {
     std::uint64_t decodedBytes = 1ull << 30; ///< largest width * height * channels * bytes a sample
 };
 
-struct ImageInfo {
-    int width = 0, height = 0, channels = 0;
-    std::string format; ///< reader's name: "png", "openexr", "tiff", "hdr", "jpeg"
-    std::string sample; ///< sample type: "uint8", "uint16", "half", "float", ...
-    int sampleBytes = 0;
-    bool isFloat = false; ///< half or float samples: heights in units, not 0..1
+/// A part of an EXR or a page of a TIFF.
+struct ImagePart {
+    std::string name; ///< as the file says it, else its number from 0
     std::vector<std::string> channelNames;
 };
 
-/// Floats, row-major from the top row, channels interleaved; integer files are mapped to 0..1, no colour transform.
+/// Of the first part, except for `parts`.
+struct ImageInfo {
+    int width = 0, height = 0, channels = 0;
+    std::string format; ///< reader's name: "png", "openexr", "tiff", "hdr", "jpeg"
+    std::string sample; ///< sample type: "uint8", "int16", "half", "float", ...
+    int sampleBytes = 0;
+    bool isFloat = false;         ///< half, float or double samples: heights in units, not 0..1
+    bool isSigned = false;        ///< signed integers: texels are the stored numbers, not 0..1
+    std::optional<double> noData; ///< the stored number that stands for a void (GDAL_NODATA of a TIFF); may be NaN
+    std::vector<std::string> channelNames;
+    std::vector<ImagePart> parts; ///< at least the first one; only pages of its size
+
+    /// Samples whose texels are numbers with a unit of their own: 0 means no height.
+    [[nodiscard]] bool hasUnit() const { return isFloat || isSigned; }
+};
+
+/// A channel of a file: of one of its parts, both from 0.
+struct ChannelPlace {
+    int part = 0, channel = 0;
+};
+/// By its number in the first part, its name ("R", "Displacement.R", with its part's name before it: "part.R"), or the
+/// name of a layer or part, whose first channel it is. Nothing where there is no such channel.
+std::optional<ChannelPlace> findChannel(const ImageInfo& info, std::string_view word);
+/// The names of the file's layers in their order: parts, and what stands before the last dot in channels' names.
+std::vector<std::string> layersOf(const ImageInfo& info);
+
+/// Floats, row-major from the top row, channels interleaved; unsigned integers are mapped to 0..1, signed ones are the
+/// stored numbers; no color transform.
 struct Image {
     int width = 0, height = 0, channels = 0;
     std::vector<float> texels; ///< width * height * channels
@@ -119,7 +145,19 @@ struct Image {
 ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits = {});
 
 /// Reads all channels, or only `channel` (0-based) when it is not negative, as raw data.
-Image readImage(const std::string& path, int channel = -1, const ImageLimits& limits = {});
+Image readImage(const std::string& path, int channel = -1, const ImageLimits& limits = {}, int part = 0);
+
+/// Called with `count` rows from row `first` on: count * width * channels texels.
+using TakeRows = std::function<void(int first, int count, std::span<const float> texels)>;
+/// The same texels of all channels of the first part in strips of a few megabytes, from the top.
+void readImageRows(const std::string& path, const TakeRows& take, const ImageLimits& limits = {});
+
+/// The first texel that is NaN or infinite, by column, row and channel from 0.
+struct TexelPlace {
+    int x = 0, y = 0, channel = 0;
+    float value = 0;
+};
+std::optional<TexelPlace> findNotFinite(const Image& image);
 
 enum class SampleType { uint8, uint16, half, real };
 

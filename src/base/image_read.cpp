@@ -5,10 +5,17 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
+#include <limits>
 #include <system_error>
 
 #include <OpenImageIO/imageio.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "base/tiff_directory.h"
 
 namespace relief {
 
@@ -35,10 +42,20 @@ constexpr std::array kMagics = {
     Magic{"\xff\xd8\xff"sv, "jpeg"},
 };
 
+/// Whether the name stands for one picture per tile of texture coordinates, as renderers write it.
+bool namesTiles(const std::string& path) {
+    std::string name = path;
+    std::ranges::transform(name, name.begin(), [](unsigned char letter) { return char(std::tolower(letter)); });
+    const auto has = [&](std::string_view token) { return name.find(token) != std::string::npos; };
+    return has("<udim>") || has("%(udim)d") || has("<uvtile>");
+}
+
 std::string findFormat(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
     std::array<char, 16> start{};
     if (file) file.read(start.data(), start.size());
+    if (!file.is_open() && namesTiles(path))
+        fail(Failure::usage, "{}: sets of tiles (UDIM) are not read yet; name the picture of one tile", path);
     // A folder opens but does not read; an empty file does neither and is bad input, not a bad disk.
     if (!file.is_open() || file.bad())
         fail(Failure::file, "{}: cannot be read: {}", path, std::generic_category().message(errno));
@@ -120,29 +137,70 @@ bool jpegHasEnd(const std::string& path) {
     return false;
 }
 
+/// Throws for a file that was cut.
 void checkEnd(const std::string& path, const std::string& format) {
-    if ((format == "png" && !pngHasEnd(path)) || (format == "jpeg" && !jpegHasEnd(path)))
-        fail(Failure::input, "{}: damaged {} picture: the file ends before the picture does", path, format);
+    const bool isWhole = format == "png"    ? pngHasEnd(path)
+                         : format == "jpeg" ? jpegHasEnd(path)
+                         : format == "tiff" ? readTiffFacts(path).isWhole
+                                            : true;
+    if (!isWhole) fail(Failure::input, "{}: damaged {} picture: the file ends before the picture does", path, format);
 }
 
 // --- reading -----------------------------------------------------------------------------------------------------
 
-struct OpenImage {
-    std::unique_ptr<OIIO::ImageInput> input;
-    std::string format;
-    OIIO::ImageSpec spec;
+/// Until its end nothing goes to stderr: libpng prints a line of its own for damaged files, and OpenImageIO 2.4 offers
+/// no way to stop it (the reason comes back by geterror() all the same). The other libraries are silent.
+class SilentStderr {
+public:
+    explicit SilentStderr(bool isWanted) : kept_(isWanted ? fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 3) : -1) {
+        if (kept_ < 0) return;
+        const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+        if (nowhere < 0) return;
+        dup2(nowhere, STDERR_FILENO);
+        close(nowhere);
+    }
+    SilentStderr(const SilentStderr&) = delete;
+    SilentStderr& operator=(const SilentStderr&) = delete;
+    ~SilentStderr() {
+        if (kept_ < 0) return;
+        dup2(kept_, STDERR_FILENO);
+        close(kept_);
+    }
+
+private:
+    int kept_;
 };
 
-OpenImage openImage(const std::string& path, const ImageLimits& limits) {
-    OpenImage image{.input = nullptr, .format = findFormat(path), .spec = {}};
+/// Throws what the library says: that it cannot read such a file, or that the file is damaged.
+[[noreturn]] void failToDecode(const std::string& path, const std::string& format, const std::string& why) {
+    for (const std::string_view word : {"upport", "nimplemented", "Sorry", "sorry"})
+        if (why.find(word) != std::string::npos)
+            fail(Failure::input, "{}: this kind of {} picture is not supported: {}", path, format, why);
+    fail(Failure::input, "{}: damaged {} picture: {}", path, format, why);
+}
+
+struct OpenImage {
+    std::string path;
+    std::unique_ptr<OIIO::ImageInput> input;
+    std::string format;
+    OIIO::ImageSpec spec; ///< of its part
+    int part = 0;
+};
+
+OpenImage openImage(const std::string& path, const ImageLimits& limits, int part = 0) {
+    OpenImage image{.path = path, .input = nullptr, .format = findFormat(path), .spec = {}, .part = part};
     checkEnd(path, image.format);
+    const SilentStderr silence(image.format == "png");
     image.input = OIIO::ImageInput::create(image.format);
     if (!image.input) fail(Failure::internal, "OpenImageIO has no {} reader: {}", image.format, OIIO::geterror());
     OIIO::ImageSpec asked;
     asked.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours come multiplied by alpha: not the stored numbers
     asked.attribute("oiio:RawColor", 1);
-    if (!image.input->open(path, image.spec, asked))
-        fail(Failure::input, "{}: damaged {} picture: {}", path, image.format, reason(*image.input));
+    if (!image.input->open(path, image.spec, asked)) failToDecode(path, image.format, reason(*image.input));
+    if (part > 0) {
+        if (!image.input->seek_subimage(part, 0)) failToDecode(path, image.format, reason(*image.input));
+        image.spec = image.input->spec();
+    }
     checkSpec(image.spec, path, limits);
     return image;
 }
@@ -152,11 +210,117 @@ void checkChannel(int channel, const OIIO::ImageSpec& spec, const std::string& p
         fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist", path, channel, spec.nchannels - 1);
 }
 
+bool isSignedInteger(const OIIO::TypeDesc& type) {
+    return type.basetype == OIIO::TypeDesc::INT8 || type.basetype == OIIO::TypeDesc::INT16 ||
+           type.basetype == OIIO::TypeDesc::INT32 || type.basetype == OIIO::TypeDesc::INT64;
+}
+
+template <typename T>
+void convert(const std::vector<char>& from, std::vector<float>& to) {
+    constexpr double kMost = std::numeric_limits<float>::max();
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        T value;
+        std::memcpy(&value, &from[i * sizeof(T)], sizeof(T));
+        const auto number = double(value); // a double past the range of floats is not infinite
+        to[i] = std::isfinite(number) ? float(std::clamp(number, -kMost, kMost)) : float(number);
+    }
+}
+
+/// Types that OpenImageIO's own conversion would scale to -1..1 or make infinite.
+void convertNumbers(const OIIO::TypeDesc& type, const std::vector<char>& from, std::vector<float>& to) {
+    switch (type.basetype) {
+    case OIIO::TypeDesc::INT8: return convert<std::int8_t>(from, to);
+    case OIIO::TypeDesc::INT16: return convert<std::int16_t>(from, to);
+    case OIIO::TypeDesc::INT32: return convert<std::int32_t>(from, to);
+    case OIIO::TypeDesc::INT64: return convert<std::int64_t>(from, to);
+    default: return convert<double>(from, to);
+    }
+}
+
+/// Rows of one strip: whole rows of tiles, about 16 MB.
+int stripHeight(const OIIO::ImageSpec& spec, int channels) {
+    constexpr std::uint64_t kStripBytes = 1 << 24;
+    const std::uint64_t rowBytes = std::uint64_t(spec.width) * std::uint64_t(channels) * sizeof(float);
+    const int rows = int(std::clamp<std::uint64_t>(kStripBytes / rowBytes, 1, 256));
+    return spec.tile_height > 0 ? std::max(rows / spec.tile_height, 1) * spec.tile_height : rows;
+}
+
+/// Channels from `first` to before `end`, rows from `y` to before `y + count`, as samples of `type` at `target`.
+struct Strip {
+    int first = 0, end = 0, y = 0, count = 0;
+};
+void readStrip(const OpenImage& source, const Strip& strip, const OIIO::TypeDesc& type, void* target) {
+    const OIIO::ImageSpec& spec = source.spec;
+    OIIO::ImageInput& input = *source.input;
+    const int top = spec.y + strip.y, bottom = top + strip.count;
+    const SilentStderr silence(source.format == "png");
+    const bool isRead =
+        spec.tile_height > 0
+            ? input.read_tiles(source.part, 0, spec.x, spec.x + spec.width, top, bottom, spec.z, spec.z + 1,
+                               strip.first, strip.end, type, target)
+            : input.read_scanlines(source.part, 0, top, bottom, spec.z, strip.first, strip.end, type, target);
+    // The TIFF reader returns true for strips that it could not read.
+    if (!isRead || input.has_error()) failToDecode(source.path, source.format, reason(input));
+}
+
+/// The same converted to floats. `stored` is its memory.
+void readNumbers(const OpenImage& source, const Strip& strip, std::vector<char>& stored, std::vector<float>& texels) {
+    const OIIO::TypeDesc type = source.spec.format;
+    stored.resize(texels.size() * type.size());
+    readStrip(source, strip, type, stored.data());
+    convertNumbers(type, stored, texels);
+}
+
+/// Gives `take` the channels from `first` to before `end`, strip by strip.
+void readRows(const OpenImage& source, int first, int end, const TakeRows& take) {
+    const OIIO::ImageSpec& spec = source.spec;
+    const bool isConverted = isSignedInteger(spec.format) || spec.format == OIIO::TypeDesc::DOUBLE;
+    const int step = stripHeight(spec, end - first);
+    std::vector<float> texels;
+    std::vector<char> stored;
+    // OpenImageIO 2.4 gives zeros for doubles in uncompressed tiles and very small strips of a TIFF, and no error.
+    bool isBlank = source.format == "tiff" && spec.format == OIIO::TypeDesc::DOUBLE;
+    for (Strip strip{first, end}; strip.y < spec.height; strip.y += strip.count) {
+        strip.count = std::min(step, spec.height - strip.y);
+        texels.resize(std::size_t(strip.count) * std::size_t(spec.width) * std::size_t(end - first));
+        if (isConverted)
+            readNumbers(source, strip, stored, texels);
+        else
+            readStrip(source, strip, OIIO::TypeFloat, texels.data());
+        isBlank = isBlank && std::ranges::all_of(texels, [](float texel) { return texel == 0; });
+        take(strip.y, strip.count, texels);
+    }
+    if (isBlank)
+        failToDecode(
+            source.path, source.format,
+            "its 64-bit samples come out as nothing but 0, as of some that are not supported; store 32-bit ones");
+    if (!source.input->close()) failToDecode(source.path, source.format, reason(*source.input));
+}
+
+/// The first part and those that hold a picture of the same size. Smaller pages of a TIFF are previews of the first.
+std::vector<ImagePart> partsOf(const OpenImage& image) {
+    constexpr int kMostParts = 1024, kMask = 4;
+    std::vector<ImagePart> parts;
+    const bool hasParts = image.format == "openexr" || image.format == "tiff";
+    for (int part = 0; part < kMostParts && (part == 0 || hasParts); ++part) {
+        if (part > 0 && !image.input->seek_subimage(part, 0)) break;
+        const OIIO::ImageSpec spec = image.input->spec();
+        const bool isPicture = spec.width == image.spec.width && spec.height == image.spec.height &&
+                               spec.get_int_attribute("tiff:PhotometricInterpretation") != kMask;
+        if (part > 0 && !isPicture && image.format == "tiff") break;
+        parts.push_back({.name = std::string(spec.get_string_attribute("oiio:subimagename", std::to_string(part))),
+                         .channelNames = spec.channelnames});
+    }
+    image.input->geterror(); // that there is no further part is no fault
+    return parts;
+}
+
 } // namespace
 
 ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
     const OpenImage image = openImage(path, limits);
     const OIIO::ImageSpec& spec = image.spec;
+    std::vector<ImagePart> parts = partsOf(image);
     image.input->close();
     return {.width = spec.width,
             .height = spec.height,
@@ -165,22 +329,28 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
             .sample = spec.format.c_str(),
             .sampleBytes = int(spec.format.size()),
             .isFloat = spec.format.is_floating_point(),
-            .channelNames = spec.channelnames};
+            .isSigned = isSignedInteger(spec.format),
+            .noData = image.format == "tiff" ? readTiffFacts(path).noData : std::nullopt,
+            .channelNames = spec.channelnames,
+            .parts = std::move(parts)};
 }
 
-Image readImage(const std::string& path, int channel, const ImageLimits& limits) {
-    const OpenImage source = openImage(path, limits);
+Image readImage(const std::string& path, int channel, const ImageLimits& limits, int part) {
+    const OpenImage source = openImage(path, limits, part);
     checkChannel(channel, source.spec, path);
     const int first = std::max(channel, 0);
     const int end = channel < 0 ? source.spec.nchannels : channel + 1;
     Image image{.width = source.spec.width, .height = source.spec.height, .channels = end - first, .texels = {}};
-    image.texels.resize(std::size_t(image.width) * image.height * image.channels);
-    const bool isRead = source.input->read_image(0, 0, first, end, OIIO::TypeFloat, image.texels.data());
-    const bool isSilent = !source.input->has_error(); // the TIFF reader returns true for strips that it could not read
-    const bool isClosed = source.input->close();
-    if (!isRead || !isSilent || !isClosed)
-        fail(Failure::input, "{}: damaged {} picture: {}", path, source.format, reason(*source.input));
+    image.texels.reserve(std::size_t(image.width) * image.height * image.channels);
+    readRows(source, first, end, [&](int, int, std::span<const float> rows) {
+        image.texels.insert(image.texels.end(), rows.begin(), rows.end());
+    });
     return image;
+}
+
+void readImageRows(const std::string& path, const TakeRows& take, const ImageLimits& limits) {
+    const OpenImage source = openImage(path, limits);
+    readRows(source, 0, source.spec.nchannels, take);
 }
 
 } // namespace relief

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <span>
 
@@ -27,9 +28,9 @@ std::string nameOf(MapFormat format);
 MapFormat fileFormat(const ImageInfo& info);
 
 struct HeightOptions {
-    std::optional<double> mid;   ///< stored value that means no displacement; default 0.5 integer files, 0 float files
+    std::optional<double> mid;   ///< stored value that means no displacement; default 0, 0.5 for unsigned integers
     std::optional<double> scale; ///< cage units for one unit of stored height; default 1
-    int channel = 0;             ///< 0-based channel of the file
+    std::string channel;         ///< name or number from 0, as findChannel reads it; "": the first
     Wrap wrap = Wrap::repeat;
     std::optional<MapFormat> format; ///< default: the smallest that keeps what the file says
     ImageLimits limits;
@@ -52,8 +53,50 @@ struct HeightMap {
     [[nodiscard]] std::uint64_t byteCount() const { return texels.size() * sizeof(float); }
 };
 
-/// Reads one channel as raw data. Warns about 8-bit sources (stairs) and integer sources without a scale.
-/// Throws as readImage does, and Failure::input for a missing channel or a texel that is not finite.
+/// What the texels of one channel are, counted before anything is stored of them. Voids are texels that hold the number
+/// of the file's GDAL_NODATA; of samples with a unit also -9999, -32767, -32768, -99999, -2147483648 and numbers beyond
+/// +-1e30, each where it stands apart: farther from all other heights than these span.
+class HeightCensus {
+public:
+    explicit HeightCensus(const ImageInfo& info);
+    void add(float texel);
+    void finish(); ///< after the last one
+
+    [[nodiscard]] bool isVoid(float texel) const;
+    [[nodiscard]] std::uint64_t voidCount() const;
+    /// "-9999 by its GDAL_NODATA"; "" without voids.
+    [[nodiscard]] std::string voidReason() const;
+    /// Of all that is finite and no void; lowest > highest where there is nothing.
+    [[nodiscard]] float lowest() const { return lowest_; }
+    [[nodiscard]] float highest() const { return highest_; }
+    /// NaN and infinities that are no voids; the first one's number in the order of `add`.
+    [[nodiscard]] std::uint64_t notFiniteCount() const { return notFiniteCount_; }
+    [[nodiscard]] std::uint64_t firstNotFinite() const { return firstNotFinite_; }
+
+private:
+    static constexpr std::array<float, 5> kCustomary = {-9999, -32767, -32768, -99999, -2147483648.0f};
+    static constexpr std::size_t kNoCustom = kCustomary.size(), kHugeLow = kNoCustom + 1, kHugeHigh = kNoCustom + 2;
+    struct Custom {
+        std::uint64_t count = 0;
+        float lowest = INFINITY, highest = -INFINITY;
+        bool isVoid = false;
+    };
+    [[nodiscard]] bool isNoData(float texel) const;
+    [[nodiscard]] std::size_t customOf(float texel) const;
+
+    bool takesCustomary_;
+    std::optional<float> noData_; ///< as texels
+    double fileSays_ = 0;
+    float slack_ = 0;
+    std::uint64_t count_ = 0, noDataCount_ = 0, notFiniteCount_ = 0, firstNotFinite_ = 0;
+    std::array<Custom, kCustomary.size() + 2> custom_;
+    float lowest_ = INFINITY, highest_ = -INFINITY;
+};
+
+/// Reads one channel as raw data. Voids are filled smoothly from the heights around them. Warns about 8-bit sources
+/// (stairs), unsigned integer sources without a scale, voids, and a channel that is not named where the file has
+/// layers. Throws as readImage does, and Failure::input for a missing channel, a texel that is not finite or voids
+/// alone.
 HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn = warnOnStderr);
 
 /// The map in another format: its texels are rounded to what that keeps, over their own range.

@@ -1,4 +1,4 @@
-#include "displacement/displacement.h"
+#include "displacement/voids.h"
 
 #include <algorithm>
 #include <cmath>
@@ -54,9 +54,54 @@ HeightMap finishMap(HeightMap map, const std::string& name) {
 
 void warnAbout(const ImageInfo& info, const std::string& path, const HeightOptions& options, const Warn& warn) {
     if (info.sampleBytes == 1) warn(fmt::format("{}: 8-bit heights show as stairs; use 16 bits or float", path));
-    if (!info.isFloat && !options.scale)
+    if (!info.hasUnit() && !options.scale)
         warn(fmt::format(
             "{}: integer heights have no unit and no scale is given; 1 is used, the map spans one cage unit", path));
+}
+
+/// Names with commas between them, and how many more there are.
+std::string listOf(const std::vector<std::string>& names) {
+    constexpr std::size_t kMost = 8;
+    std::string list;
+    for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
+        list += fmt::format("{}{}", i == 0 ? "" : ", ", names[i].empty() ? "one without a name" : names[i]);
+    return names.size() > kMost ? fmt::format("{} and {} more", list, names.size() - kMost) : list;
+}
+
+ChannelPlace chooseChannel(const ImageInfo& info, const std::string& path, const std::string& word, const Warn& warn) {
+    if (word.empty()) {
+        const std::vector<std::string> layers = layersOf(info);
+        if (layers.size() > 1)
+            warn(fmt::format("{}: there are {} layers ({}); channel {} is taken: choose with --channel NAME", path,
+                             layers.size(), listOf(layers), info.channelNames.front()));
+        return {};
+    }
+    if (const std::optional<ChannelPlace> place = findChannel(info, word)) return *place;
+    std::vector<std::string> names;
+    for (const ImagePart& part : info.parts)
+        for (const std::string& name : part.channelNames)
+            names.push_back(info.parts.size() > 1 ? part.name + "." + name : name);
+    fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist: {}", path, word, info.channels - 1,
+         listOf(names));
+}
+
+/// Voids become heights; throws where there is nothing to make them from.
+void repairVoids(HeightMap& map, const ImageInfo& info, const std::string& path, const Warn& warn) {
+    HeightCensus census(info);
+    for (const float texel : map.texels) census.add(texel);
+    census.finish();
+    const std::uint64_t count = census.voidCount();
+    if (count == 0) return;
+    if (count == map.texels.size())
+        fail(Failure::input, "{}: all {} texels are voids ({}); there is no height in it", path, count,
+             census.voidReason());
+    if (census.notFiniteCount() > 0) return; // refused, with its texel
+    warn(fmt::format("{}: {} of {} texels are voids ({}); they are filled from the heights around them", path, count,
+                     map.texels.size(), census.voidReason()));
+    std::vector<bool> isVoid(map.texels.size());
+    for (std::size_t i = 0; i < isVoid.size(); ++i) isVoid[i] = census.isVoid(map.texels[i]);
+    fillVoids(map.width, map.height, map.texels, isVoid);
+    roundToFormat(map);
 }
 
 } // namespace
@@ -72,21 +117,19 @@ double HeightMap::reach() const { return std::abs(scale) * std::max(std::abs(low
 
 HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn) {
     const ImageInfo info = readImageInfo(path, options.limits);
-    if (options.channel < 0 || options.channel >= info.channels)
-        fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist", path, options.channel,
-             info.channels - 1);
+    const ChannelPlace place = chooseChannel(info, path, options.channel, warn);
     warnAbout(info, path, options, warn);
-    Image image = readImage(path, options.channel, options.limits);
-    HeightMap map = finishMap({.width = image.width,
-                               .height = image.height,
-                               .texels = std::move(image.texels),
-                               .mid = options.mid.value_or(info.isFloat ? 0.0 : 0.5),
-                               .scale = options.scale.value_or(1.0),
-                               .wrap = options.wrap},
-                              path);
-    if (options.format) return inFormat(map, *options.format);
-    map.format = fileFormat(info);
-    return map;
+    Image image = readImage(path, place.channel, options.limits, place.part);
+    HeightMap map{.width = image.width,
+                  .height = image.height,
+                  .texels = std::move(image.texels),
+                  .mid = options.mid.value_or(info.hasUnit() ? 0.0 : 0.5),
+                  .scale = options.scale.value_or(1.0),
+                  .wrap = options.wrap,
+                  .format = fileFormat(info)};
+    repairVoids(map, info, path, warn);
+    map = finishMap(std::move(map), path);
+    return options.format ? inFormat(map, *options.format) : map;
 }
 
 HeightMap makeHeightMap(int width, int height, std::vector<float> texels, double mid, double scale, Wrap wrap) {

@@ -6,7 +6,7 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include "displacement/displacement.h"
+#include "displacement/voids.h"
 
 namespace relief {
 namespace {
@@ -199,6 +199,10 @@ std::array<float, 16> decodeBc4(std::span<const std::uint8_t, 8> block) {
     return values;
 }
 
+void roundToFormat(HeightMap& map) {
+    for (float& texel : map.texels) texel = unpacked(map, packed(map, texel));
+}
+
 HeightMap inFormat(const HeightMap& map, MapFormat format) {
     HeightMap kept = map;
     kept.format = format;
@@ -217,7 +221,7 @@ HeightMap inFormat(const HeightMap& map, MapFormat format) {
         kept.blocks = blocksOf(unitOf(kept, map.texels), map.width, map.height);
         kept.texels = fromUnit(kept, valuesOf(kept.blocks, map.width, map.height));
     } else {
-        for (float& texel : kept.texels) texel = unpacked(kept, packed(kept, texel));
+        roundToFormat(kept);
     }
     const auto [lowest, highest] = std::ranges::minmax(kept.texels);
     kept.lowest = lowest, kept.highest = highest;

@@ -10,6 +10,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kStudioHeight = 64;
 constexpr int kLargestHeight = 512; // of a user's environment; sharper reflections do not show on a dielectric
+constexpr float kMostRadiance = 1e12f;
 constexpr int kFilteredHeight = 16; // levels of this size and below are convolved, larger ones averaged
 
 /// Direction of the centre of texel (x,y); the inverse of equirectangular() in light.comp.
@@ -157,9 +158,10 @@ Environment loadEnvironment(const std::string& path) {
         for (int x = 0; x < file.width; ++x)
             for (int c = 0; c < 3; ++c) {
                 const float value = file.at(x, y)[c];
-                if (!std::isfinite(value) || value < 0)
-                    fail(Failure::input, "{}: pixel {},{} is {}; radiance is finite and not negative", path, x, y,
-                         value);
+                // Sums over all pixels stay finite, and the sun has 1.6e9 candela per square metre.
+                if (!std::isfinite(value) || value < 0 || value > kMostRadiance)
+                    fail(Failure::input, "{}: pixel {},{} is {}; radiance is a number in 0..{:g}", path, x, y, value,
+                         kMostRadiance);
                 image.at(x, y)[c] = value;
             }
     return prepare(std::move(image));

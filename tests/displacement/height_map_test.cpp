@@ -193,10 +193,10 @@ TEST_F(LoadHeightMap, takesOneChannel) {
     image = {.width = 1, .height = 1, .channels = 3, .texels = {1, 2, 3}};
     writeImage(folder / "a.exr", image, SampleType::real);
     for (int channel = 0; channel < 3; ++channel)
-        EXPECT_EQ(load("a.exr", {.channel = channel}).texels, std::vector<float>{float(channel + 1)});
+        EXPECT_EQ(load("a.exr", {.channel = std::to_string(channel)}).texels, std::vector<float>{float(channel + 1)});
     for (const int channel : {3, -1})
         expectFailure(Failure::input, {folder / "a.exr", fmt::format("channel {}", channel), "0 to 2"},
-                      [&] { load("a.exr", {.channel = channel}); });
+                      [&] { load("a.exr", {.channel = std::to_string(channel)}); });
 }
 
 TEST_F(LoadHeightMap, refusesTexelsThatAreNotFinite) {
