@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <fstream>
-#include <system_error>
 
 #include <OpenImageIO/imageio.h>
 
@@ -36,13 +34,8 @@ constexpr std::array kMagics = {
 };
 
 std::string findFormat(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
     std::array<char, 16> start{};
-    if (file) file.read(start.data(), start.size());
-    // A folder opens but does not read; an empty file does neither and is bad input, not a bad disk.
-    if (!file.is_open() || file.bad())
-        fail(Failure::file, "{}: cannot be read: {}", path, std::generic_category().message(errno));
-    const std::string_view bytes(start.data(), std::size_t(file.gcount()));
+    const std::string_view bytes(start.data(), InputFile(path).read(0, start.data(), start.size()));
     for (const Magic& magic : kMagics)
         if (bytes.starts_with(magic.bytes)) return magic.format;
     fail(Failure::input, "{}: not a picture that can be read; use EXR, TIFF, PNG, HDR or JPEG", path);

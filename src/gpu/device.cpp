@@ -334,10 +334,6 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& needs, VkMemoryPrope
         ++type;
     if (type == memory_.memoryTypeCount)
         fail(Failure::device, "{} has no memory of the kind {:#x}", traits_.name, flags);
-    if (allocatedBytes_ + needs.size > traits_.heapBytes)
-        fail(Failure::device, "{} more do not fit beside {} on {} ({}); try a lower --rate, a smaller map or --size",
-             humanBytes(needs.size), humanBytes(allocatedBytes_), traits_.name, humanBytes(traits_.heapBytes));
-
     VkMemoryAllocateFlagsInfo addressable{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     addressable.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
@@ -345,7 +341,15 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& needs, VkMemoryPrope
     info.allocationSize = needs.size;
     info.memoryTypeIndex = type;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    checkVulkan(vkAllocateMemory(device_, &info, nullptr, &memory), "vkAllocateMemory");
+    // Some drivers give more than there is, and are ended by the system when it is used.
+    const bool isTooMuch = allocatedBytes_ + needs.size > traits_.heapBytes;
+    const VkResult result =
+        isTooMuch ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkAllocateMemory(device_, &info, nullptr, &memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        fail(Failure::device,
+             "out of memory: {} more do not fit beside {} on {} ({}); try a lower --rate, a smaller map or --size",
+             humanBytes(needs.size), humanBytes(allocatedBytes_), traits_.name, humanBytes(traits_.heapBytes));
+    checkVulkan(result, "vkAllocateMemory");
     allocatedBytes_ += needs.size;
     peakBytes_ = std::max(peakBytes_, allocatedBytes_);
     return memory;
