@@ -34,7 +34,7 @@ constexpr int kCannotRun = 127; ///< as shells have it
 
 /// Starts ffmpeg without a word on the terminal.
 pid_t start(const Words& arguments, int input) {
-    Words words{"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "quiet", "-y"};
+    Words words{"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "quiet", "-y", "-xerror"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());

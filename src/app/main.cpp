@@ -1,6 +1,8 @@
 // relief: displaced subdivision surfaces on any Vulkan 1.3 device.
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <new>
 #include <set>
@@ -112,22 +114,10 @@ int faultOf(const std::system_error& error) {
     return fault(isFile ? Failure::file : Failure::internal, error.what());
 }
 
-/// Files that this program opens must not become its stdout or stderr where those are closed: what is printed would
-/// get into them. Each is opened such that using it fails as before.
-void occupyStandardFiles() {
-    for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        if (fcntl(file, F_GETFD) < 0 && open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
-}
-
-} // namespace
-
-int main(int argc, char** argv) {
-    mallopt(M_MMAP_THRESHOLD, 1 << 20); // large arrays go back to the system when they are freed, at once
-    std::signal(SIGXFSZ, SIG_IGN);      // files that may not grow (ulimit -f) are then told of by write()
+/// Of the exception at hand.
+int faultOfCurrent() {
     try {
-        occupyStandardFiles();
-        endCleanlyOnInterrupt();
-        return run(argc, argv);
+        throw;
     } catch (const Error& error) {
         return fault(error.failure, error.what());
     } catch (const app::OutOfMemory& error) {
@@ -140,5 +130,34 @@ int main(int argc, char** argv) {
         return faultOf(error);
     } catch (const std::exception& error) {
         return fault(Failure::internal, error.what());
+    }
+}
+
+/// Exceptions in threads of libraries, or through code that knows none.
+[[noreturn]] void endTerminated() {
+    if (std::current_exception()) _exit(faultOfCurrent());
+    std::abort();
+}
+
+/// Files that this program opens must not become its stdout or stderr where those are closed: what is printed would
+/// get into them. Each is opened such that using it fails as before.
+void occupyStandardFiles() {
+    for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(file, F_GETFD) < 0 && open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    mallopt(M_MMAP_THRESHOLD, 1 << 20); // large arrays go back to the system when they are freed, at once
+    std::signal(SIGXFSZ, SIG_IGN);      // files that may not grow (ulimit -f) are then told of by write()
+    std::set_terminate(endTerminated);
+    app::endWhereMemoryRunsOut();
+    try {
+        occupyStandardFiles();
+        endCleanlyOnInterrupt();
+        return run(argc, argv);
+    } catch (...) {
+        return faultOfCurrent();
     }
 }

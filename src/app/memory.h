@@ -1,4 +1,4 @@
-// Memory that runs out: how much was asked for.
+// Memory and threads that run out, here or in the libraries: exit code 5 with one line.
 #pragma once
 
 #include <array>
@@ -16,5 +16,9 @@ public:
 private:
     std::array<char, 160> text_{};
 };
+
+/// Where memory is limited (ulimit -v), a library that crashes or aborts for lack of it ends the program with exit code
+/// 5 from now on: drivers do not look at each result. Any other crash stays one.
+void endWhereMemoryRunsOut();
 
 } // namespace relief::app

@@ -82,16 +82,12 @@ private:
 
 NewFile::NewFile(fs::path target) : target_(std::move(target)) {
     openNameless();
-    if (file_ < 0) openNamed();
+    if (file_ < 0) openNamed(); // some disks have no such files; and this says what else may be wrong
     takePermissions();
 }
 
 void NewFile::openNameless() {
     file_ = open(folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
-    const bool isUnknown = errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL; // some disks have no such files
-    if (file_ < 0 && !isUnknown)
-        fail(Failure::file, "{}: cannot write into its folder: {}", target_.string(),
-             std::generic_category().message(errno));
     if (file_ >= 0 && !hasDescriptorNames()) close(std::exchange(file_, -1)); // nobody could open it
 }
 

@@ -173,15 +173,29 @@ bool isAskedForByEnvironment() {
 
 } // namespace
 
+namespace {
+
+/// What a person can do about it; drivers and layers say little of memory that they could not get.
+const char* hintFor(VkResult result) {
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return ": out of memory; try a lower --rate or a smaller --size";
+    case VK_ERROR_DEVICE_LOST: return ": the device was lost";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return ": no Vulkan driver is installed (on Debian: apt-get install mesa-vulkan-drivers), or there is no "
+               "memory to load it";
+    case VK_ERROR_INITIALIZATION_FAILED:
+    case VK_ERROR_LAYER_NOT_PRESENT:
+    case VK_ERROR_UNKNOWN: return ": the driver cannot start; is there memory for it?";
+    default: return "";
+    }
+}
+
+} // namespace
+
 void checkVulkan(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return;
-    const char* hint = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY
-                           ? ": out of memory; try a lower --rate or a smaller --size"
-                       : result == VK_ERROR_DEVICE_LOST         ? ": the device was lost"
-                       : result == VK_ERROR_INCOMPATIBLE_DRIVER ? ": no Vulkan driver is installed (on Debian: "
-                                                                  "apt-get install mesa-vulkan-drivers)"
-                                                                : "";
-    fail(Failure::device, "{} failed with VkResult {}{}", call, int(result), hint);
+    fail(Failure::device, "{} failed with VkResult {}{}", call, int(result), hintFor(result));
 }
 
 std::vector<DeviceTraits> listDevices() {

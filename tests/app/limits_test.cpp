@@ -1,14 +1,10 @@
 // Hard conditions: links, disks that are full, inputs that would be overwritten, memory and threads that run out.
-#include <sys/mount.h>
-#include <sys/resource.h>
-
 #include "program.h"
 
 namespace relief::test {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kLimitsMemory = false; ///< the sanitizer's own takes terabytes of addresses
@@ -61,7 +57,8 @@ TEST(Outputs, thatAreInputsAreRefusedBeforeTheyAreLost) {
           Words{"export", cube, "--cache", folder / "cube.{frame}.obj", "-o", folder / "cube.1.obj"},
           Words{"render", cube, "--height", map, "-o", map}, Words{"render", cube, "--albedo", map, "-o", map},
           Words{"sample", cube, "--at", points, "-o", points}, Words{"check", cube, "--height", map, "--heatmap", map},
-          Words{"animate", cube, "--height", folder / "h.2.png", "--turntable", "2", "-o", folder / "h.{frame}.png"},
+          Words{"animate", "-q", cube, "--height", folder / "h.2.png", "--turntable", "2", "-o",
+                folder / "h.{frame}.png"},
           Words{"bench", "--from", cube, "--csv", cube}}) {
         SCOPED_TRACE(fmt::format("{}", fmt::join(words, " ")));
         expectRefused(relief(words), Failure::usage, {"input"});
@@ -108,7 +105,9 @@ TEST(Outputs, doNotNeedStderr) {
 
 TEST(FullDisks, endEachVerbWith4AndLeaveNothing) {
     const TemporaryFolder folder;
-    putFile(folder / "points.csv", std::string(200, '\n') + "0,0.5,0.5\n1,0.5,0.5\n2,0.5,0.5\n3,0.5,0.5\n4,0.5,0.5\n");
+    std::string points;
+    for (int i = 0; i < 60; ++i) points += "0,0.5,0.5\n";
+    putFile(folder / "points.csv", points);
     const std::string cube = cagePath("cube");
     for (const std::string& words :
          {"render " + cube + " --size 64,64 -o $IN/a.png", "render " + cube + " --size 64,64 -o $IN/a.exr",
@@ -135,6 +134,49 @@ TEST(FullDisks, endClipsWith4AndLeaveNothing) {
             Failure::file, {folder / fmt::format("a.{}", extension), "ffmpeg"});
         EXPECT_EQ(folder.fileCount(), 0u);
     }
+}
+
+// --- memory and threads that run out -------------------------------------------------------------------------------
+
+TEST(Memory, thatIsNotToBeHadExitsWith5AndSaysHowMuch) {
+    if (!kLimitsMemory) GTEST_SKIP() << "the sanitizer has its own memory";
+    const TemporaryFolder folder;
+    putFile(folder / "large.json", "");
+    fs::resize_file(folder / "large.json", 3'000'000'000); // without a single block
+    expectRefused(shell("ulimit -v 2000000; $RELIEF bench --from $IN/large.json", folder), Failure::device,
+                  {"out of memory", "3.0 GB"});
+}
+
+// Wherever it runs out: in the loader of the driver, in its compiler, in its memory.
+TEST(Memory, thatRunsOutInALibraryExitsWith5) {
+    if (!kLimitsMemory) GTEST_SKIP() << "the sanitizer has its own memory";
+    const TemporaryFolder folder;
+    bool isRefused = false;
+    for (const int megabytes : {650, 750, 800, 850, 900, 950, 1050}) {
+        SCOPED_TRACE(megabytes);
+        const Outcome outcome = shell(
+            fmt::format("export MESA_SHADER_CACHE_DISABLE=1; ulimit -c 0; ulimit -v {}000; $RELIEF render {} -q --size "
+                        "64,64 -o $IN/a.png",
+                        megabytes, cagePath("cube")),
+            folder);
+        EXPECT_TRUE(outcome.exitCode == 0 || outcome.exitCode == int(Failure::device))
+            << outcome.exitCode << outcome.err;
+        EXPECT_EQ(fs::remove(folder / "a.png"), outcome.exitCode == 0);
+        EXPECT_EQ(contains(outcome.err, "memory"), outcome.exitCode != 0) << outcome.err;
+        isRefused = isRefused || outcome.exitCode != 0;
+    }
+    EXPECT_TRUE(isRefused);
+}
+
+TEST(Threads, thatCannotBeStartedExitWith5) {
+    if (!kLimitsMemory) GTEST_SKIP() << "the sanitizer's own start before they could be counted";
+    const TemporaryFolder folder;
+    // The limit is for all processes of a user, and not for root.
+    const std::string other = getuid() == 0 ? "setpriv --reuid 65534 --clear-groups -- " : "";
+    const Outcome few = shell(other + "prlimit --nproc=3 $RELIEF --version", folder);
+    if (few.exitCode == 126 || few.exitCode == 127) GTEST_SKIP() << "the program cannot be run by another user";
+    expectRefused(few, Failure::device, {"threads", "ulimit -u"});
+    EXPECT_EQ(shell(other + "$RELIEF --version", folder).exitCode, 0);
 }
 
 } // namespace
