@@ -50,6 +50,13 @@ std::string reason(const Source& source) {
     return text.empty() ? "no reason given" : text;
 }
 
+/// The libraries below call it a bad file, too, when there is no memory for it.
+[[noreturn]] void failDamaged(const std::string& path, const std::string& format, const std::string& reason) {
+    if (reason.find("memory") != std::string::npos || reason.find("bad_alloc") != std::string::npos)
+        fail(Failure::device, "{}: no memory is left to read this picture: {}", path, reason);
+    fail(Failure::input, "{}: damaged {} picture: {}", path, format, reason);
+}
+
 /// Throws unless the header's numbers are sane and within the limits; nothing has been allocated for them yet.
 void checkSpec(const OIIO::ImageSpec& spec, const std::string& path, const ImageLimits& limits) {
     const auto isSide = [&](int side) { return side >= 1 && side <= limits.side; };
@@ -134,8 +141,7 @@ OpenImage openImage(const std::string& path, const ImageLimits& limits) {
     OIIO::ImageSpec asked;
     asked.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours come multiplied by alpha: not the stored numbers
     asked.attribute("oiio:RawColor", 1);
-    if (!image.input->open(path, image.spec, asked))
-        fail(Failure::input, "{}: damaged {} picture: {}", path, image.format, reason(*image.input));
+    if (!image.input->open(path, image.spec, asked)) failDamaged(path, image.format, reason(*image.input));
     checkSpec(image.spec, path, limits);
     return image;
 }
@@ -171,8 +177,7 @@ Image readImage(const std::string& path, int channel, const ImageLimits& limits)
     const bool isRead = source.input->read_image(0, 0, first, end, OIIO::TypeFloat, image.texels.data());
     const bool isSilent = !source.input->has_error(); // the TIFF reader returns true for strips that it could not read
     const bool isClosed = source.input->close();
-    if (!isRead || !isSilent || !isClosed)
-        fail(Failure::input, "{}: damaged {} picture: {}", path, source.format, reason(*source.input));
+    if (!isRead || !isSilent || !isClosed) failDamaged(path, source.format, reason(*source.input));
     return image;
 }
 

@@ -42,7 +42,11 @@ Run runProgram(const std::vector<std::string>& words, const std::string& output,
         }
         if (child > 0) wait4(child, &status, 0, &usage);
     });
-    if (status != 0) fail(Failure::internal, "{} ended with status {}", words[0], status);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const bool isOfDevice = code == int(Failure::device); // it has said why
+    if (code != 0)
+        fail(isOfDevice ? Failure::device : Failure::internal, "{} {} ended with exit code {}", words[0], words[1],
+             code);
     run.peakBytes = std::uint64_t(usage.ru_maxrss) * 1024;
     return run;
 }
