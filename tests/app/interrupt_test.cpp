@@ -67,6 +67,29 @@ TEST(Interrupts, ofAClipLeaveNoFileAndNoProcess) {
     }
 }
 
+// An encoder that does not look at its input would go on for minutes.
+TEST(Interrupts, endTheEncoderWhateverItDoes) {
+    const TemporaryFolder folder;
+    putFile(folder / "ffmpeg", "#!/bin/sh\ncase \"$*\" in *-version) exit 0;; esac\nexec sleep \"$RELIEF_SLEEP\"\n");
+    std::filesystem::permissions(folder / "ffmpeg", std::filesystem::perms(0755));
+    const std::string path = std::getenv("PATH"), seconds = fmt::format("300.{}", getpid());
+    setenv("RELIEF_SLEEP", seconds.c_str(), 1);
+    setenv("PATH", (folder.path.string() + ":" + path).c_str(), 1);
+    for (const int signal : {SIGINT, SIGKILL}) {
+        Program program({"animate", cagePath("cube"), "--turntable", "2000", "--size", "32,32", "--rate", "1",
+                         "--progress", "always", "-o", folder / "a.gif"});
+        EXPECT_TRUE(waitFor(program, "animating"));
+        for (int i = 0; i < 500 && !isRunning("sleep " + seconds); ++i) std::this_thread::sleep_for(10ms);
+        EXPECT_TRUE(isRunning("sleep " + seconds));
+        program.signal(signal);
+        EXPECT_EQ(program.wait().exitCode, 128 + signal);
+        for (int i = 0; i < 500 && isRunning("sleep " + seconds); ++i) std::this_thread::sleep_for(10ms);
+        EXPECT_FALSE(isRunning("sleep " + seconds)) << "after signal " << signal;
+    }
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(folder.fileCount(), 1u);
+}
+
 TEST(Interrupts, ofABenchLeaveNoFolderAndNoProcess) {
     const TemporaryFolder folder;
     Program program(

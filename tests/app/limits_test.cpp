@@ -101,6 +101,21 @@ TEST(Outputs, doNotNeedStderr) {
     }
 }
 
+// What is opened later must not get the number of what is closed, or it gets what is printed.
+TEST(Outputs, neverTakeThePlaceOfStdoutOrStderr) {
+    const TemporaryFolder folder;
+    Program program({"-c", fmt::format("exec {} animate {} --turntable 2000 --size 16,16 --rate 1 -o "
+                                       "{}/f.{{frame}}.png <&- >&- 2>&-",
+                                       RELIEF_PROGRAM, cagePath("cube"), folder.path.string())},
+                    "/bin/sh");
+    for (int i = 0; i < 3000 && folder.fileCount() == 0; ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int file = 0; file < 3; ++file)
+        EXPECT_EQ(fs::read_symlink(fmt::format("/proc/{}/fd/{}", program.id(), file)), "/dev/null") << file;
+    program.signal(SIGTERM);
+    EXPECT_EQ(program.wait().exitCode, 128 + SIGTERM);
+}
+
 // --- disks that are full -------------------------------------------------------------------------------------------
 
 TEST(FullDisks, endEachVerbWith4AndLeaveNothing) {
