@@ -37,9 +37,9 @@ struct Outcome {
 /// The program, started; its words go to files so that neither side ever waits for the other.
 class Program {
 public:
-    explicit Program(const Words& arguments) {
+    explicit Program(const Words& arguments, const char* program = RELIEF_PROGRAM) {
         setenv("RELIEF_VALIDATE", "1", 1);
-        Words all{RELIEF_PROGRAM};
+        Words all{program};
         all.insert(all.end(), arguments.begin(), arguments.end());
         std::vector<char*> pointers;
         for (std::string& word : all) pointers.push_back(word.data());
@@ -57,15 +57,17 @@ public:
         sigaddset(&defaults, SIGINT);
         posix_spawnattr_setsigdefault(&attributes, &defaults);
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-        const int error = posix_spawn(&process_, RELIEF_PROGRAM, &files, &attributes, pointers.data(), environ);
+        const int error = posix_spawn(&process_, program, &files, &attributes, pointers.data(), environ);
         posix_spawnattr_destroy(&attributes);
         posix_spawn_file_actions_destroy(&files);
-        if (error != 0) ADD_FAILURE() << "cannot start " << RELIEF_PROGRAM << ": " << strerror(error);
+        if (error != 0) ADD_FAILURE() << "cannot start " << program << ": " << strerror(error);
     }
 
     [[nodiscard]] std::string errorsSoFar() const { return std::filesystem::exists(err_) ? readFile(err_) : ""; }
 
     void signal(int number) const { kill(process_, number); }
+
+    [[nodiscard]] pid_t id() const { return process_; }
 
     Outcome wait() {
         int status = 0;
@@ -84,6 +86,13 @@ private:
 inline Outcome relief(Words arguments, const std::string& more = "") {
     for (const std::string& word : split(more)) arguments.push_back(word);
     return Program(arguments).wait();
+}
+
+/// A line of shell in which $RELIEF is the program and $IN the folder: for limits and redirections.
+inline Outcome shell(const std::string& line, const TemporaryFolder& folder) {
+    setenv("RELIEF", RELIEF_PROGRAM, 1);
+    setenv("IN", folder.path.c_str(), 1);
+    return Program({"-c", line}, "/bin/sh").wait();
 }
 
 inline std::string cagePath(const std::string& name) { return std::string(RELIEF_SOURCE) + "/meshes/" + name + ".obj"; }

@@ -1,5 +1,5 @@
-// The surface as flat arrays; shared/records.h has their bits on the device. A face here is OpenSubdiv's ptex face: a quad of the cage, one corner
-// quad of an n-gon, or a triangle of a Loop cage.
+// The surface as flat arrays; shared/records.h has their bits on the device. A face here is OpenSubdiv's ptex face: a
+// quad of the cage, one corner quad of an n-gon, or a triangle of a Loop cage.
 //
 //   quads (Catmull-Clark, bilinear)        triangles (Loop)
 //   corner 3 --- side 2 --- corner 2       corner 2
@@ -24,8 +24,8 @@ RELIEF_CONSTANT uint kLeafBit = 0x80000000u;
 RELIEF_CONSTANT uint kNoPatch = 0xffffffffu;
 
 // Face::sides entries: edge index, how the side runs along it, and whether the side is two edges (beside an n-gon).
-// A split side names the first edge of a pair (2 consecutive edges e, e+1 in the edges' direction). Run forwards the side
-// is e then e+1; run backwards it is e+1 reversed, then e reversed.
+// A split side names the first edge of a pair (2 consecutive edges e, e+1 in the edges' direction). Run forwards the
+// side is e then e+1; run backwards it is e+1 reversed, then e reversed.
 RELIEF_CONSTANT uint kSideReversed = 0x80000000u;
 RELIEF_CONSTANT uint kSideSplit = 0x40000000u;
 RELIEF_CONSTANT uint kSideEdgeMask = 0x3fffffffu;
@@ -44,39 +44,44 @@ RELIEF_CONSTANT uint kPlaceOnSeam = 2u;     // an edge whose faces have texture 
 
 // Control points of a patch.
 RELIEF_SHARED_FUNCTION uint patchSize(uint type) {
-    return type == kPatchRegular ? 16u : type == kPatchGregory ? 20u : type == kPatchQuads ? 4u
-           : type == kPatchLoop ? 12u : type == kPatchGregoryTriangle ? 18u : 3u;
+    return type == kPatchRegular           ? 16u
+           : type == kPatchGregory         ? 20u
+           : type == kPatchQuads           ? 4u
+           : type == kPatchLoop            ? 12u
+           : type == kPatchGregoryTriangle ? 18u
+                                           : 3u;
 }
 
-// A corner of a face is straight where its two sides continue each other: the face lies alone between two edges that are one
-// smooth curve (a corner of a smooth boundary, a creased rim). Its tangents along the two sides are t and -t, so p_u x p_v
-// vanishes there. The normal is the limit along the diagonal from the corner into the face: after the step s the product is
-// s (t x d) to first order, where d is the second derivative of p along the diagonal. Around a vertex of two faces both
-// tangents vanish; there t and d are the derivatives along the diagonal of the tangents of the two sides, and the product is
-// s^2 (t x d). The points p + t and p + d (p, t, d by the face's coordinates) follow the control points of the patch, two per
-// such corner in the order of its corners: their rounding is that of points, where differences of control points lose all digits.
+// A corner of a face is straight where its two sides continue each other: the face lies alone between two edges that
+// are one smooth curve (a corner of a smooth boundary, a creased rim). Its tangents along the two sides are t and -t,
+// so p_u x p_v vanishes there. The normal is the limit along the diagonal from the corner into the face: after the step
+// s the product is s (t x d) to first order, where d is the second derivative of p along the diagonal. Around a vertex
+// of two faces both tangents vanish; there t and d are the derivatives along the diagonal of the tangents of the two
+// sides, and the product is s^2 (t x d). The points p + t and p + d (p, t, d by the face's coordinates) follow the
+// control points of the patch, two per such corner in the order of its corners: their rounding is that of points, where
+// differences of control points lose all digits.
 
 struct Patch {
-    uint firstPoint;     // into Surface::patchPoints
-    uint param0;         // Far::PatchParam::field0
-    uint param1;         // Far::PatchParam::field1
-    uint type;           // kPatch...
-    uint texFirstPoint;  // into Surface::texPatchPoints
-    uint texParam1;      // the face-varying patch's field1 (its boundary mask differs)
-    uint texType;        // kPatch...
+    uint firstPoint;      // into Surface::patchPoints
+    uint param0;          // Far::PatchParam::field0
+    uint param1;          // Far::PatchParam::field1
+    uint type;            // kPatch...
+    uint texFirstPoint;   // into Surface::texPatchPoints
+    uint texParam1;       // the face-varying patch's field1 (its boundary mask differs)
+    uint texType;         // kPatch...
     uint straightCorners; // bit c: corner c is straight, or its tangents vanish
 };
 
 struct Face {
-    uint root;           // tree entry
-    uint sides[4];       // 3 used by triangles
-    uint cageFace;       // the face of the cage that this one belongs to
+    uint root;     // tree entry
+    uint sides[4]; // 3 used by triangles
+    uint cageFace; // the face of the cage that this one belongs to
 };
 
 // A stretch of one side of one face: an edge's parameter t in [0,1] is at x = start + t (end - start) along the side.
 struct Touch {
     uint face;
-    uint side;           // for corners: start = end, 0 at the face's corner `side`, ½ in the middle of a split side
+    uint side; // for corners: start = end, 0 at the face's corner `side`, ½ in the middle of a split side
     float start;
     float end;
 };
@@ -84,18 +89,18 @@ struct Touch {
 // Every edge has one owner, the incident face with the lowest index; its direction is the owner's (start < end).
 struct Edge {
     Touch owner;
-    uint corners[2];     // at t = 0 and t = 1
-    uint firstTouch;     // into Surface::touches: all incident faces in index order,
-    uint touchCount;     // or 0 where the owner's normal is the surface's (smooth edges)
-    uint partner;        // the other half of a split cage edge, or the edge itself
-    uint flags;          // kPlace...
+    uint corners[2]; // at t = 0 and t = 1
+    uint firstTouch; // into Surface::touches: all incident faces in index order,
+    uint touchCount; // or 0 where the owner's normal is the surface's (smooth edges)
+    uint partner;    // the other half of a split cage edge, or the edge itself
+    uint flags;      // kPlace...
 };
 
 struct Corner {
     Touch owner;
-    uint firstTouch;     // as for edges
+    uint firstTouch; // as for edges
     uint touchCount;
-    uint flags;          // kPlace...
+    uint flags; // kPlace...
 };
 
 #ifdef __cplusplus

@@ -1,10 +1,6 @@
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <system_error>
 
 #include "animation/frames.h"
 #include "animation/keys.h"
@@ -20,16 +16,10 @@ constexpr const char* kCountFrames = "--cache-frames takes its frame k as frame 
 /// Words of a file, wherever they are asked for.
 class CacheFile {
 public:
-    CacheFile(std::string path, std::endian order) : path_(std::move(path)), order_(order) {
-        std::error_code error;
-        size_ = std::filesystem::file_size(path_, error);
-        if (error) failToRead(error);
-        stream_.open(path_, std::ios::binary);
-        if (!stream_) failToRead({errno, std::generic_category()});
-    }
+    CacheFile(std::string path, std::endian order) : file_(std::move(path)), order_(order) {}
 
-    [[nodiscard]] const std::string& path() const { return path_; }
-    [[nodiscard]] std::uint64_t size() const { return size_; }
+    [[nodiscard]] const std::string& path() const { return file_.path(); }
+    [[nodiscard]] std::uint64_t size() const { return file_.size(); }
 
     std::string bytes(std::uint64_t offset, std::size_t count) {
         std::string bytes(count, '\0');
@@ -39,27 +29,19 @@ public:
 
     std::vector<std::uint32_t> words(std::uint64_t offset, std::size_t count) {
         std::vector<std::uint32_t> words(count);
-        read(offset, reinterpret_cast<char*>(words.data()), 4 * count);
+        read(offset, words.data(), 4 * count);
         for (std::uint32_t& word : words) word = inOrder(word, order_);
         return words;
     }
 
 private:
-    void read(std::uint64_t offset, char* bytes, std::size_t count) {
-        stream_.clear();
-        stream_.seekg(std::streamoff(offset));
-        stream_.read(bytes, std::streamsize(count));
-        if (stream_.bad()) failToRead({errno, std::generic_category()});
-        if (!stream_) fail(Failure::input, "{}: the file has been cut short while it was in use", path_);
-    }
-    [[noreturn]] void failToRead(const std::error_code& error) const {
-        fail(Failure::file, "{}: cannot be read: {}", path_, error.message());
+    void read(std::uint64_t offset, void* bytes, std::size_t count) {
+        if (file_.read(offset, bytes, count) != count)
+            fail(Failure::input, "{}: the file has been cut short while it was in use", path());
     }
 
-    std::string path_;
+    InputFile file_;
     std::endian order_;
-    std::uint64_t size_ = 0;
-    std::ifstream stream_;
 };
 
 /// Frames of floats, one after another, up to the file's end.

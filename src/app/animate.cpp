@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/empty.h"
 #include "app/frames.h"
+#include "app/output.h"
 #include "app/weld.h"
 
 namespace relief::app {
@@ -30,13 +31,14 @@ bool isCachePath(const std::string& path) {
 }
 
 void checkTarget(const AnimateArgs& args) {
+    const std::vector<std::string> inputs = inputsOf(args.surface, args.picture);
     if (isClipPath(args.target) || isCachePath(args.target)) {
         if (args.resumes)
             fail(Failure::usage, "{}: --resume goes on with pictures, one a frame: -o 'frame.{{frame:4}}.png'",
                  args.target);
         if (!args.picture.layers.empty())
             fail(Failure::usage, "{}: layers go into pictures, one a frame: -o 'frame.{{frame:4}}.exr'", args.target);
-        checkWritable(args.target);
+        checkOutput(args.target, inputs);
         return;
     }
     if (!args.target.ends_with(".png") && !args.target.ends_with(".exr"))
@@ -45,7 +47,7 @@ void checkTarget(const AnimateArgs& args) {
              "or a point cache (.pc2 .mdd)",
              args.target);
     checkPicturePath(args.target, args.picture);
-    checkWritable(frameName(args.target, 0));
+    checkOutput(frameName(args.target, 0), inputs);
 }
 
 // --- what moves ----------------------------------------------------------------------------------------------------
@@ -291,7 +293,7 @@ void drawAll(FrameMaker& maker, std::span<const int> frames, const AnimateArgs& 
         if (!complaint.empty())
             args.output.warn()(fmt::format("{}: frame {}: {}", args.surface.cage, frame, complaint));
         report.hasComplained = report.hasComplained || !complaint.empty();
-        writing = std::async(std::launch::async, [drawn, &write] { write(*drawn); });
+        writing = std::async([drawn, &write] { write(*drawn); });
         progress.advance();
     }
     if (writing.valid()) writing.get();
@@ -299,7 +301,11 @@ void drawAll(FrameMaker& maker, std::span<const int> frames, const AnimateArgs& 
 
 void writeClip(FrameMaker& maker, const AnimateArgs& args, Report& report) {
     writeWhole(args.target, [&](const std::string& temporary) {
-        ClipWriter clip({temporary, args.picture.camera.size[0], args.picture.camera.size[1], args.surface.pose.fps});
+        ClipWriter clip({.path = args.target,
+                         .temporary = temporary,
+                         .width = args.picture.camera.size[0],
+                         .height = args.picture.camera.size[1],
+                         .fps = args.surface.pose.fps});
         Finish finish = finishOf(args.picture);
         if (finish.background == Background::transparent) finish.background = Background::studio; // clips have no alpha
         drawAll(maker, maker.frames(), args, report,
@@ -313,6 +319,7 @@ void writePictures(FrameMaker& maker, const AnimateArgs& args, Report& report) {
     if (args.resumes) // files appear whole, so those that are there are done
         report.skippedCount =
             std::erase_if(frames, [&](int frame) { return std::filesystem::exists(frameName(args.target, frame)); });
+    for (const int frame : frames) checkOutput(frameName(args.target, frame), inputsOf(args.surface, args.picture));
     const Finish finish = finishOf(args.picture);
     drawAll(maker, frames, args, report,
             [&](const DrawnFrame& drawn) { writePicture(frameName(args.target, drawn.frame), drawn.picture, finish); });
@@ -345,13 +352,11 @@ void writeCache(const AnimateArgs& args, Report& report) {
 void print(const AnimateArgs& args, const Report& report) {
     const std::size_t count = report.frames.size();
     if (args.output.isJson) {
-        std::cout << nlohmann::json{{"output", args.target},
-                                    {"device", report.device},
-                                    {"seconds", report.seconds},
-                                    {"skipped_frames", report.skippedCount},
-                                    {"frames", report.frames}}
-                         .dump(2)
-                  << '\n';
+        printJson({{"output", args.target},
+                   {"device", report.device},
+                   {"seconds", report.seconds},
+                   {"skipped_frames", report.skippedCount},
+                   {"frames", report.frames}});
     } else if (!args.output.isQuiet) {
         std::cerr << fmt::format("{}: {} frames{} in {:.1f} s", args.target, count,
                                  report.skippedCount > 0 ? fmt::format(" ({} were there)", report.skippedCount) : "",

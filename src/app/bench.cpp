@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/output.h"
 #include "measure/measure.h"
 
 namespace relief::app {
@@ -70,7 +71,7 @@ int bench(BenchArgs args) {
     if (!args.compared.empty()) return compare(args);
     checkUsage(args);
     for (const std::string& path : {args.json, args.csv, args.report})
-        if (!path.empty()) checkWritable(path);
+        if (!path.empty()) checkOutput(path, {args.from, args.surface.cage, args.surface.height});
     if (args.suites.empty()) args.suites = suiteNames();
     const Results results = !args.from.empty()
                                 ? readResults(args.from)

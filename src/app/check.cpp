@@ -3,6 +3,7 @@
 
 #include "app/commands.h"
 #include "app/heatmap.h"
+#include "app/output.h"
 
 namespace relief::app {
 namespace {
@@ -146,13 +147,16 @@ Certificate certify(const CheckArgs& args, const Loaded& loaded) {
 }
 
 int check(const CheckArgs& args) {
-    if (!args.heatmap.empty()) checkHeatmapPath(args.heatmap);
+    if (!args.heatmap.empty()) {
+        checkHeatmapPath(args.heatmap);
+        checkOutput(args.heatmap, inputsOf(args.surface));
+    }
     const Loaded loaded = load(args.surface, args.output);
     if (loaded.dense)
         fail(Failure::usage, "{}: certificates are for subdivision surfaces; name its --scheme", args.surface.cage);
     const Certificate certificate = certify(args, loaded);
     if (args.output.isJson)
-        std::cout << toJson(certificate).dump(2) << '\n';
+        printJson(toJson(certificate));
     else if (!args.output.isQuiet)
         std::cout << toText(certificate);
     std::cout.flush(); // before the word on stderr

@@ -1,46 +1,49 @@
 #include "app/clip.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <system_error>
 
 #include <fcntl.h>
-#include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-extern char** environ;
 
 namespace relief::app {
 namespace {
 
 using Words = std::vector<std::string>;
 
-/// Starts ffmpeg without a word on the terminal; `input` becomes its stdin.
+constexpr int kCannotRun = 127; ///< as shells have it
+
+/// In the new process, where little else is allowed: `input` becomes its stdin, and ffmpeg takes its place.
+[[noreturn]] void runFfmpeg(char* const* arguments, int input, pid_t parent) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // it ends with us, however that comes about
+    if (getppid() != parent) _exit(kCannotRun);
+    setpgid(0, 0); // Ctrl-C on the terminal is ours alone
+    sigset_t none; // an interrupt is blocked here, where a thread waits for it: not in the child
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+    dup2(input, STDIN_FILENO);
+    dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDOUT_FILENO);
+    execvp(arguments[0], arguments);
+    _exit(kCannotRun);
+}
+
+/// Starts ffmpeg without a word on the terminal.
 pid_t start(const Words& arguments, int input) {
-    Words words{"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "quiet", "-y"};
+    Words words{"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "quiet", "-y", "-xerror"};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
-
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawnattr_t attributes; // an interrupt is blocked here, where a thread waits for it: not in the child
-    posix_spawnattr_init(&attributes);
-    sigset_t none;
-    sigemptyset(&none);
-    posix_spawnattr_setsigmask(&attributes, &none);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-    pid_t process = -1;
-    const int error = posix_spawnp(&process, "ffmpeg", &files, &attributes, pointers.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-    if (error != 0)
-        fail(Failure::file, "clips are made by ffmpeg, which is not installed (on Debian: apt-get install ffmpeg); "
-                            "write frames instead: -o 'frame.{{frame:4}}.png'");
+    const pid_t self = getpid(), process = fork();
+    if (process == 0) runFfmpeg(pointers.data(), input, self);
+    if (process < 0)
+        fail(Failure::device, "ffmpeg, which makes clips, cannot be started: {}",
+             std::generic_category().message(errno));
     return process;
 }
 
@@ -50,24 +53,22 @@ int exitCodeOf(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// How each format is encoded. Players want even sides and 4:2:0 of .mp4; a .gif gets a palette of its own colors.
+/// How each format is encoded: the file's name does not tell. Players want even sides and 4:2:0 of .mp4; a .gif gets a
+/// palette of its own colors.
 Words encoding(const std::string& extension) {
     if (extension == ".mp4")
-        return {"-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                "-c:v",      "libx264",
-                "-pix_fmt",  "yuv420p",
-                "-crf",      "17",
-                "-movflags", "+faststart"};
+        return {"-f",   "mp4",     "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                "-c:v", "libx264", "-pix_fmt",  "yuv420p",
+                "-crf", "17",      "-movflags", "+faststart"};
     if (extension == ".webm")
-        return {"-vf",      "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                "-c:v",     "libvpx-vp9",
-                "-pix_fmt", "yuv420p",
-                "-crf",     "24",
-                "-b:v",     "0",
-                "-row-mt",  "1"};
-    if (extension == ".webp") return {"-c:v", "libwebp_anim", "-quality", "80", "-loop", "0"};
-    return {"-vf", "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4", "-loop",
-            "0"};
+        return {"-f",      "webm",       "-vf",      "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+                "-c:v",    "libvpx-vp9", "-pix_fmt", "yuv420p",
+                "-crf",    "24",         "-b:v",     "0",
+                "-row-mt", "1"};
+    if (extension == ".webp") return {"-f", "webp", "-c:v", "libwebp_anim", "-quality", "80", "-loop", "0"};
+    return {"-f",    "gif",
+            "-vf",   "split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer:bayer_scale=4",
+            "-loop", "0"};
 }
 
 } // namespace
@@ -81,6 +82,9 @@ void checkClipWriter() {
     const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
     const int code = exitCodeOf(start({"-version"}, nothing));
     close(nothing);
+    if (code == kCannotRun)
+        fail(Failure::file, "clips are made by ffmpeg, which is not installed (on Debian: apt-get install ffmpeg); "
+                            "write frames instead: -o 'frame.{{frame:4}}.png'");
     if (code != 0) fail(Failure::file, "ffmpeg, which makes clips, cannot be run: it ends with {}", code);
 }
 
@@ -95,7 +99,7 @@ ClipWriter::ClipWriter(const ClipDesc& desc) : desc_(desc) {
                 "-r",       fmt::format("{}", desc.fps),
                 "-i",       "-"};
     for (const std::string& word : encoding(lowerExtension(desc.path))) words.push_back(word);
-    words.push_back("file:" + desc.path);
+    words.push_back("file:" + desc.temporary);
     process_ = start(words, ends[0]);
     close(ends[0]);
 }

@@ -17,7 +17,8 @@ bool isClipPath(const std::string& path);
 void checkClipWriter();
 
 struct ClipDesc {
-    std::string path; ///< its extension names the format
+    std::string path;      ///< what it will be called: its extension names the format
+    std::string temporary; ///< where it is written
     int width = 0, height = 0;
     double fps = 24;
 };

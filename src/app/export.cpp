@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/output.h"
 
 namespace relief::app {
 namespace {
@@ -71,19 +72,17 @@ void report(const ExportArgs& args, const Exported& exported) {
     const std::size_t vertexCount = exported.mesh.positions.size(), triangleCount = exported.mesh.indices.size() / 3;
     const std::uint64_t bytes = std::filesystem::file_size(args.target);
     if (args.output.isJson) {
-        std::cout << nlohmann::json{{"mesh", args.target},
-                                    {"device", exported.device},
-                                    {"vertices", vertexCount},
-                                    {"triangles", triangleCount},
-                                    {"samples", exported.sampleCount},
-                                    {"bytes", bytes},
-                                    {"load_ms", 1e3 * exported.loadSeconds},
-                                    {"surface_ms", 1e3 * exported.surfaceSeconds},
-                                    {"rate_ms", exported.rateMs},
-                                    {"dice_ms", exported.diceMs},
-                                    {"write_ms", 1e3 * exported.writeSeconds}}
-                         .dump(2)
-                  << '\n';
+        printJson({{"mesh", args.target},
+                   {"device", exported.device},
+                   {"vertices", vertexCount},
+                   {"triangles", triangleCount},
+                   {"samples", exported.sampleCount},
+                   {"bytes", bytes},
+                   {"load_ms", 1e3 * exported.loadSeconds},
+                   {"surface_ms", 1e3 * exported.surfaceSeconds},
+                   {"rate_ms", exported.rateMs},
+                   {"dice_ms", exported.diceMs},
+                   {"write_ms", 1e3 * exported.writeSeconds}});
     } else if (!args.output.isQuiet) {
         std::cerr << fmt::format("{}: {} vertices, {} triangles, {}, diced on {}\n", args.target, vertexCount,
                                  triangleCount, humanBytes(bytes), exported.device);
@@ -97,7 +96,7 @@ void report(const ExportArgs& args, const Exported& exported) {
 
 int exportMesh(const ExportArgs& args) {
     checkMeshPath(args.target);
-    checkWritable(args.target);
+    checkOutput(args.target, inputsOf(args.surface));
     Exported exported = dice(args);
     // OBJ has each position once already, and texture coordinates beside it.
     if (args.weldsPositions && lowerExtension(args.target) != ".obj") exported.mesh = weldPositions(exported.mesh);

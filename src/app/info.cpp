@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/output.h"
 #include "app/weld.h"
 #include "check/check.h"
 
@@ -170,7 +171,8 @@ void print(const json& object) {
         const bool isSize = key == "bytes" || key == "map_bytes" || key == "memory";
         std::string name = key;
         std::ranges::replace(name, '_', ' ');
-        std::cout << fmt::format("  {:28} {}\n", name, isSize ? humanBytes(value.get<std::uint64_t>()) : text(value));
+        std::cout << fmt::format("  {:28} {}\n", name,
+                                 isSize ? humanBytes(value.get<std::uint64_t>()) : onOneLine(text(value)));
     }
 }
 
@@ -193,12 +195,12 @@ int info(const InfoArgs& args) {
     if (args.listsDevices)
         for (json& device : ofDevices()) all.push_back(std::move(device));
     if (args.isJson) {
-        std::cout << all.dump(2) << '\n';
+        printJson(all);
         return 0;
     }
     for (const json& object : all) {
         const char* title = object.contains("file") ? "file" : "device";
-        std::cout << object[title].get<std::string>() << '\n';
+        std::cout << onOneLine(object[title].get<std::string>()) << '\n';
         json rest = object;
         rest.erase(title);
         print(rest);

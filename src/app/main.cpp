@@ -2,13 +2,23 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <set>
+#include <stdexcept>
+#include <system_error>
 
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
 #include "app/commands.h"
+#include "app/memory.h"
+#include "app/output.h"
 #include "app/weld.h"
 
 namespace {
@@ -31,11 +41,8 @@ constexpr Command kCommands[] = {
     {"info", "what a file holds; what the devices can do", app::addInfo},
 };
 
-/// One line, whatever stood in the words that it repeats.
-int fault(Failure failure, std::string line) {
-    std::ranges::replace_if(
-        line, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
-    std::cerr << "relief: " << line << '\n';
+int fault(Failure failure, const std::string& line) {
+    printOnStderr(fmt::format("relief: {}\n", onOneLine(line)));
     return int(failure);
 }
 
@@ -107,24 +114,69 @@ int run(int argc, char** argv) {
         const std::string hint = hintFor(app, argc, argv);
         return fault(Failure::usage, hint.empty() ? error.what() : hint);
     }
-    return chosen();
+    const int code = chosen();
+    app::finishStdout();
+    return code;
+}
+
+/// What libraries say in their own kinds of exceptions.
+int faultOf(const std::system_error& error) {
+    const std::error_code code = error.code();
+    if (code == std::errc::resource_unavailable_try_again)
+        return fault(Failure::device, "no more threads can be started: there are too many (ulimit -u), or no memory is "
+                                      "left for one (ulimit -v)");
+    if (code == std::errc::not_enough_memory) return fault(Failure::device, "out of memory");
+    const bool isFile = dynamic_cast<const std::filesystem::filesystem_error*>(&error) != nullptr;
+    return fault(isFile ? Failure::file : Failure::internal, error.what());
+}
+
+/// Of the exception at hand.
+int faultOfCurrent() {
+    try {
+        throw;
+    } catch (const Error& error) {
+        return fault(error.failure, error.what());
+    } catch (const app::OutOfMemory& error) {
+        return fault(Failure::device, error.what());
+    } catch (const std::bad_alloc&) { // of a library's own making
+        return fault(Failure::device, "out of memory");
+    } catch (const std::length_error&) {
+        return fault(Failure::device, "out of memory: more was asked for than any memory holds");
+    } catch (const std::system_error& error) {
+        return faultOf(error);
+    } catch (const std::exception& error) {
+        return fault(Failure::internal, error.what());
+    }
+}
+
+/// Exceptions in threads of libraries, or through code that knows none.
+[[noreturn]] void endTerminated() {
+    if (std::current_exception()) _exit(faultOfCurrent());
+    std::abort();
+}
+
+/// Files that this program opens must not become its stdout or stderr where those are closed: what is printed would
+/// get into them. Each is opened such that using it fails as before.
+void occupyStandardFiles() {
+    for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(file, F_GETFD) < 0 && open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
     mallopt(M_MMAP_THRESHOLD, 1 << 20); // large arrays go back to the system when they are freed, at once
+    std::signal(SIGXFSZ, SIG_IGN);      // files that may not grow (ulimit -f) are then told of by write()
+    std::set_terminate(endTerminated);
+    app::endWhereMemoryRunsOut();
     try {
+        occupyStandardFiles();
         endCleanlyOnInterrupt();
         std::vector<std::string> words = app::withDefaultDistances(argc, argv);
         std::vector<char*> pointers;
         for (std::string& word : words) pointers.push_back(word.data());
         return run(argc, pointers.data());
-    } catch (const Error& error) {
-        return fault(error.failure, error.what());
-    } catch (const std::bad_alloc&) {
-        return fault(Failure::device, "out of memory");
-    } catch (const std::exception& error) {
-        return fault(Failure::internal, error.what());
+    } catch (...) {
+        return faultOfCurrent();
     }
 }

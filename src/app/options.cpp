@@ -286,9 +286,7 @@ void checkValidation(const Device& device) {
     if (count > 0) fail(Failure::internal, "the Vulkan validation layer has {} complaints", count);
 }
 
-namespace {
-
-}
+namespace {}
 
 } // namespace
 

@@ -7,6 +7,7 @@
 
 #include "app/commands.h"
 #include "app/empty.h"
+#include "app/output.h"
 #include "app/weld.h"
 
 namespace relief::app {
@@ -33,31 +34,29 @@ struct Drawn {
 void report(const RenderArgs& args, const Drawn& drawn) {
     const FrameStats& stats = drawn.picture.stats;
     if (args.output.isJson) {
-        std::cout << nlohmann::json{{"picture", args.target},
-                                    {"device", drawn.device},
-                                    {"triangles", stats.triangleCount},
-                                    {"faces", stats.faceCount},
-                                    {"hidden_faces", stats.hiddenFaceCount},
-                                    {"draws", stats.drawCount},
-                                    {"max_rate", stats.maxRate},
-                                    {"cage_bytes", drawn.cageBytes},
-                                    {"map_bytes", drawn.mapBytes},
-                                    {"map_format", drawn.mapFormat},
-                                    {"vertices", stats.vertexCount},
-                                    {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
-                                    {"device_bytes", drawn.deviceBytes},
-                                    {"peak_device_bytes", drawn.peakDeviceBytes},
-                                    {"load_ms", 1e3 * drawn.loadSeconds},
-                                    {"surface_ms", 1e3 * drawn.surfaceSeconds},
-                                    {"table_ms", 1e3 * drawn.tableSeconds},
-                                    {"rate_ms", stats.rateMs},
-                                    {"dice_ms", stats.diceMs},
-                                    {"shadow_ms", stats.shadowMs},
-                                    {"color_ms", stats.colorMs},
-                                    {"light_ms", stats.lightMs},
-                                    {"frame_ms", stats.wallMs}}
-                         .dump(2)
-                  << '\n';
+        printJson({{"picture", args.target},
+                   {"device", drawn.device},
+                   {"triangles", stats.triangleCount},
+                   {"faces", stats.faceCount},
+                   {"hidden_faces", stats.hiddenFaceCount},
+                   {"draws", stats.drawCount},
+                   {"max_rate", stats.maxRate},
+                   {"cage_bytes", drawn.cageBytes},
+                   {"map_bytes", drawn.mapBytes},
+                   {"map_format", drawn.mapFormat},
+                   {"vertices", stats.vertexCount},
+                   {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
+                   {"device_bytes", drawn.deviceBytes},
+                   {"peak_device_bytes", drawn.peakDeviceBytes},
+                   {"load_ms", 1e3 * drawn.loadSeconds},
+                   {"surface_ms", 1e3 * drawn.surfaceSeconds},
+                   {"table_ms", 1e3 * drawn.tableSeconds},
+                   {"rate_ms", stats.rateMs},
+                   {"dice_ms", stats.diceMs},
+                   {"shadow_ms", stats.shadowMs},
+                   {"color_ms", stats.colorMs},
+                   {"light_ms", stats.lightMs},
+                   {"frame_ms", stats.wallMs}});
     } else if (!args.output.isQuiet) {
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
                                  drawn.device);
@@ -74,8 +73,8 @@ void report(const RenderArgs& args, const Drawn& drawn) {
 /// Memory goes back as soon as it is not needed: the peak is the frame itself, not everything that led to it.
 Drawn draw(const RenderArgs& args, Progress& progress) {
     // A driver takes its time to load: it does so while files are read.
-    std::future<std::unique_ptr<Device>> opening = std::async(
-        std::launch::async, [&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
+    std::future<std::unique_ptr<Device>> opening =
+        std::async([&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
     Loaded loaded = load(args.surface, args.output, args.picture.albedo);
     warnOfPlainTags(loaded, args.surface, args.output.warn());
     progress.advance();
@@ -122,7 +121,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
 
 int render(const RenderArgs& args) {
     checkPicturePath(args.target, args.picture);
-    checkWritable(args.target);
+    checkOutput(args.target, inputsOf(args.surface, args.picture));
     Progress progress("rendering", 5, args.output.progress);
     const Drawn drawn = draw(args, progress);
     writePicture(args.target, drawn.picture, finishOf(args.picture));

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/output.h"
 
 namespace relief::app {
 namespace {
@@ -99,7 +100,9 @@ Rows sampledRows(Device& device, const Model& model, const std::vector<SampleQue
 }
 
 int sample(const SampleArgs& args) {
-    checkWritable(args.target);
+    std::vector<std::string> inputs = inputsOf(args.surface);
+    inputs.push_back(args.points);
+    checkOutput(args.target, inputs);
     const std::vector<SampleQuery> queries = readPoints(args.points);
     const Loaded loaded = load(args.surface, args.output);
     if (loaded.dense)
@@ -116,9 +119,7 @@ int sample(const SampleArgs& args) {
     }
     writeFile(args.target, text);
     if (args.output.isJson)
-        std::cout << nlohmann::json{{"rows", queries.size()}, {"device", device.traits().name}, {"output", args.target}}
-                         .dump(2)
-                  << '\n';
+        printJson({{"rows", queries.size()}, {"device", device.traits().name}, {"output", args.target}});
     else if (!args.output.isQuiet)
         std::cerr << fmt::format("{}: {} points on {}\n", args.target, queries.size(), device.traits().name);
     checkValidation(device);

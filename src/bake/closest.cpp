@@ -71,7 +71,9 @@ ClosestPoints::ClosestPoints(const TriangleView& triangles) {
     positions_.assign(triangles.positions.begin(), triangles.positions.end());
     positions_.emplace_back(0.0f);
     indices_.assign(triangles.indices.begin(), triangles.indices.end());
-    if (!device_) fail(Failure::internal, "Embree does not start: error {}", int(rtcGetDeviceError(nullptr)));
+    if (!device_)
+        fail(Failure::device, "Embree does not start (error {}); is there memory for it?",
+             int(rtcGetDeviceError(nullptr)));
     scene_.reset(rtcNewScene(device_.get()));
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW); // as many trees are built as measured
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <future>
 #include <limits>
 #include <thread>
 
@@ -142,12 +143,13 @@ private:
     Samples samples_;
 };
 
-/// Calls `work(first, end)` for stretches of 0..count, one a core.
+/// Calls `work(first, end)` for stretches of 0..count, one per core; in turn where no more threads can be started.
 void onAllCores(std::size_t count, const std::function<void(std::size_t first, std::size_t end)>& work) {
-    const std::size_t threadCount = std::max(1u, std::thread::hardware_concurrency());
-    std::vector<std::jthread> threads;
-    for (std::size_t i = 0; i < threadCount; ++i)
-        threads.emplace_back([&, i] { work(i * count / threadCount, (i + 1) * count / threadCount); });
+    const std::size_t partCount = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::future<void>> parts;
+    for (std::size_t i = 0; i < partCount; ++i)
+        parts.push_back(std::async([&, i] { work(i * count / partCount, (i + 1) * count / partCount); }));
+    for (std::future<void>& part : parts) part.get();
 }
 
 } // namespace

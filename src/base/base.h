@@ -47,6 +47,12 @@ template <typename... Args>
 /// Called with one line for each thing that is odd but not wrong (an 8-bit height map, a cage without UVs).
 using Warn = std::function<void(const std::string&)>;
 
+/// The text with a space in the place of each control character: one line, whatever stood in the names that it repeats.
+std::string onOneLine(std::string text);
+
+/// Prints to stderr, and goes on where that cannot be written (closed, or a file on a full disk).
+void printOnStderr(std::string_view text);
+
 /// Prints "warning: LINE" to stderr.
 void warnOnStderr(const std::string& line);
 
@@ -176,8 +182,35 @@ void writeImage(const std::string& path, const Image& image, const std::vector<I
 
 // --- files ------------------------------------------------------------------------------------------------------
 
-/// Calls `write` with the name of an empty temporary file beside `path` (same extension), then renames it; on any
-/// exception the temporary file is removed and `path` is as it was. Throws Failure::file when the folder cannot be
+/// A regular file, open for reading: the one way in which files come in. Folders, pipes, sockets and devices are
+/// refused before anything waits for them.
+class InputFile {
+public:
+    /// Throws Failure::file when it cannot be opened or is not a regular file.
+    explicit InputFile(std::string path);
+    InputFile(InputFile&& other) noexcept;
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    ~InputFile();
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::uint64_t size() const { return size_; } ///< bytes when it was opened
+    /// Reads up to `count` bytes from `offset` on, fewer only where the file ends. Throws Failure::file.
+    std::size_t read(std::uint64_t offset, void* bytes, std::size_t count) const;
+
+private:
+    std::string path_;
+    std::uint64_t size_ = 0;
+    int file_ = -1;
+};
+
+/// The whole file as bytes. Throws Failure::file, or Failure::input when it is longer than `limit` bytes.
+std::string readFile(const std::string& path, std::uint64_t limit = 1ull << 32);
+
+/// Calls `write` with the name of an empty temporary file, then puts that in the place of `path`; on any exception
+/// `path` is as it was. The temporary file lies in the target's folder; it has no name of its own there where the
+/// system knows such files, so that nothing is left of a process that is killed. A link is followed, to a file that is
+/// still to be made too; a file keeps its permissions. Throws Failure::file when the folder or the file cannot be
 /// written or `path` is something else than a file (a folder, a device).
 void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write);
 
@@ -188,12 +221,24 @@ void checkWritable(const std::string& path);
 /// Writes `bytes` as the file `path`, whole or not at all. Throws Failure::file when writing fails.
 void writeFile(const std::string& path, std::string_view bytes);
 
-/// From now on an interrupt (SIGINT, SIGTERM, SIGHUP) removes the temporary files of writeWhole and ends the program
-/// with 128 + the signal's number: 130 for Ctrl-C. Call it first in main: threads that run already are not covered.
-void endCleanlyOnInterrupt();
+/// A file or folder that is removed, with all that is in it, at the end of the scope or by an interrupt before.
+class Temporary {
+public:
+    /// `make` makes it and returns its path. No interrupt comes between its being made and its being listed.
+    explicit Temporary(const std::function<std::string()>& make);
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    ~Temporary();
 
-/// The whole file as bytes. Throws Failure::file, or Failure::input when it is longer than `limit` bytes.
-std::string readFile(const std::string& path, std::uint64_t limit = 1ull << 32);
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+private:
+    std::string path_;
+};
+
+/// From now on an interrupt (SIGINT, SIGTERM, SIGHUP) removes everything temporary and ends the program with 128 + the
+/// signal's number: 130 for Ctrl-C. Call it first in main: threads that run already are not covered.
+void endCleanlyOnInterrupt();
 
 // --- words ------------------------------------------------------------------------------------------------------
 

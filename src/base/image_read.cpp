@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
-#include <system_error>
 
 #include <OpenImageIO/imageio.h>
 
@@ -51,15 +50,10 @@ bool namesTiles(const std::string& path) {
 }
 
 std::string findFormat(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
     std::array<char, 16> start{};
-    if (file) file.read(start.data(), start.size());
-    if (!file.is_open() && namesTiles(path))
+    if (namesTiles(path) && !std::filesystem::exists(path))
         fail(Failure::usage, "{}: sets of tiles (UDIM) are not read yet; name the picture of one tile", path);
-    // A folder opens but does not read; an empty file does neither and is bad input, not a bad disk.
-    if (!file.is_open() || file.bad())
-        fail(Failure::file, "{}: cannot be read: {}", path, std::generic_category().message(errno));
-    const std::string_view bytes(start.data(), std::size_t(file.gcount()));
+    const std::string_view bytes(start.data(), InputFile(path).read(0, start.data(), start.size()));
     for (const Magic& magic : kMagics)
         if (bytes.starts_with(magic.bytes)) return magic.format;
     fail(Failure::input, "{}: not a picture that can be read; use EXR, TIFF, PNG, HDR or JPEG", path);
@@ -173,6 +167,9 @@ private:
 
 /// Throws what the library says: that it cannot read such a file, or that the file is damaged.
 [[noreturn]] void failToDecode(const std::string& path, const std::string& format, const std::string& why) {
+    // The libraries below call it a bad file, too, when there is no memory for it.
+    if (why.find("memory") != std::string::npos || why.find("bad_alloc") != std::string::npos)
+        fail(Failure::device, "{}: no memory is left to read this picture: {}", path, why);
     for (const std::string_view word : {"upport", "nimplemented", "Sorry", "sorry"})
         if (why.find(word) != std::string::npos)
             fail(Failure::input, "{}: this kind of {} picture is not supported: {}", path, format, why);

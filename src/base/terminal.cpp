@@ -1,6 +1,7 @@
 #include "base/base.h"
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 
@@ -23,7 +24,15 @@ bool isWanted(ShowProgress show) {
 
 } // namespace
 
-void warnOnStderr(const std::string& line) { fmt::print(stderr, "warning: {}\n", line); }
+std::string onOneLine(std::string text) {
+    std::ranges::replace_if(
+        text, [](unsigned char letter) { return std::iscntrl(letter) != 0; }, ' ');
+    return text;
+}
+
+void printOnStderr(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+void warnOnStderr(const std::string& line) { printOnStderr(fmt::format("warning: {}\n", onOneLine(line))); }
 
 Progress::Progress(std::string title, std::uint64_t total, ShowProgress show, std::string unit)
     : title_(std::move(title)), unit_(std::move(unit)), total_(std::max<std::uint64_t>(total, 1)),
@@ -60,7 +69,7 @@ void Progress::draw() {
     const int full = int(kBarCells * share);
     std::string bar;
     for (int cell = 0; cell < kBarCells; ++cell) bar += cell < full ? "█" : "░";
-    fmt::print(stderr, "\r{}  {:3} % {}{}", title_, percent, bar, speed());
+    printOnStderr(fmt::format("\r{}  {:3} % {}{}", title_, percent, bar, speed()));
     std::fflush(stderr);
 }
 

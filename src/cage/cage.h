@@ -150,8 +150,8 @@ void checkMeshSize(const std::string& path, std::uint64_t vertexCount, std::uint
 
 /// Writes by the extension of `path`, whole or not at all, through a buffer of 1 MiB: binary .ply, .obj that reads back
 /// to the same bits and has each position once, or .glb (glTF 2.0: t turned to run down). .obj and .glb omit triangles
-/// that name a vertex (.obj: a position) twice, which their readers refuse. A mesh with coordinates of its own is written
-/// in the world: as doubles in .obj and .ply (`property double x`), and in .glb, which has floats only, by the
+/// that name a vertex (.obj: a position) twice, which their readers refuse. A mesh with coordinates of its own is
+/// written in the world: as doubles in .obj and .ply (`property double x`), and in .glb, which has floats only, by the
 /// translation and scale of its node. Throws as the two checks above, Failure::input for a mesh without triangles,
 /// arrays that disagree, indices out of range and numbers that are not finite, Failure::file when writing fails.
 void writeMesh(const std::string& path, const DenseMesh& mesh, ShowProgress show = ShowProgress::never);

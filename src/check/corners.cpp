@@ -7,8 +7,8 @@
 namespace relief {
 namespace {
 
-/// Of a face: within the patch that holds a corner, since normals beside a vertex of high valence turn fast; not nearer,
-/// since OpenSubdiv's tangents of straight corners are 1.5e-5 off.
+/// Of a face: within the patch that holds a corner, since normals beside a vertex of high valence turn fast; not
+/// nearer, since OpenSubdiv's tangents of straight corners are 1.5e-5 off.
 constexpr double kBeside = 1.0 / 1024;
 
 double angleBetween(const dvec3& a, const dvec3& b) {

@@ -173,15 +173,29 @@ bool isAskedForByEnvironment() {
 
 } // namespace
 
+namespace {
+
+/// What a person can do about it; drivers and layers say little of memory that they could not get.
+const char* hintFor(VkResult result) {
+    switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return ": out of memory; try a lower --rate or a smaller --size";
+    case VK_ERROR_DEVICE_LOST: return ": the device was lost";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+        return ": no Vulkan driver is installed (on Debian: apt-get install mesa-vulkan-drivers), or there is no "
+               "memory to load it";
+    case VK_ERROR_INITIALIZATION_FAILED:
+    case VK_ERROR_LAYER_NOT_PRESENT:
+    case VK_ERROR_UNKNOWN: return ": the driver cannot start; is there memory for it?";
+    default: return "";
+    }
+}
+
+} // namespace
+
 void checkVulkan(VkResult result, const char* call) {
     if (result == VK_SUCCESS) return;
-    const char* hint = result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY
-                           ? ": out of memory; try a lower --rate or a smaller --size"
-                       : result == VK_ERROR_DEVICE_LOST         ? ": the device was lost"
-                       : result == VK_ERROR_INCOMPATIBLE_DRIVER ? ": no Vulkan driver is installed (on Debian: "
-                                                                  "apt-get install mesa-vulkan-drivers)"
-                                                                : "";
-    fail(Failure::device, "{} failed with VkResult {}{}", call, int(result), hint);
+    fail(Failure::device, "{} failed with VkResult {}{}", call, int(result), hintFor(result));
 }
 
 std::vector<DeviceTraits> listDevices() {
@@ -334,10 +348,6 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& needs, VkMemoryPrope
         ++type;
     if (type == memory_.memoryTypeCount)
         fail(Failure::device, "{} has no memory of the kind {:#x}", traits_.name, flags);
-    if (allocatedBytes_ + needs.size > traits_.heapBytes)
-        fail(Failure::device, "{} more do not fit beside {} on {} ({}); try a lower --rate, a smaller map or --size",
-             humanBytes(needs.size), humanBytes(allocatedBytes_), traits_.name, humanBytes(traits_.heapBytes));
-
     VkMemoryAllocateFlagsInfo addressable{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     addressable.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
@@ -345,7 +355,15 @@ VkDeviceMemory Device::allocate(const VkMemoryRequirements& needs, VkMemoryPrope
     info.allocationSize = needs.size;
     info.memoryTypeIndex = type;
     VkDeviceMemory memory = VK_NULL_HANDLE;
-    checkVulkan(vkAllocateMemory(device_, &info, nullptr, &memory), "vkAllocateMemory");
+    // Some drivers give more than there is, and are ended by the system when it is used.
+    const bool isTooMuch = allocatedBytes_ + needs.size > traits_.heapBytes;
+    const VkResult result =
+        isTooMuch ? VK_ERROR_OUT_OF_DEVICE_MEMORY : vkAllocateMemory(device_, &info, nullptr, &memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        fail(Failure::device,
+             "out of memory: {} more do not fit beside {} on {} ({}); try a lower --rate, a smaller map or --size",
+             humanBytes(needs.size), humanBytes(allocatedBytes_), traits_.name, humanBytes(traits_.heapBytes));
+    checkVulkan(result, "vkAllocateMemory");
     allocatedBytes_ += needs.size;
     peakBytes_ = std::max(peakBytes_, allocatedBytes_);
     return memory;

@@ -27,16 +27,12 @@ std::uint64_t writtenBytes(const HeightMap& map, const std::string& file, const 
 
 } // namespace
 
-ScratchFolder::ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "relief-bench-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) fail(Failure::file, "{}: cannot make a folder there", name);
-    path_ = name;
-}
-
-ScratchFolder::~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
+ScratchFolder::ScratchFolder()
+    : folder_([] {
+          std::string name = (std::filesystem::temp_directory_path() / "relief-bench-XXXXXX").string();
+          if (mkdtemp(name.data()) == nullptr) fail(Failure::file, "{}: cannot make a folder there", name);
+          return name;
+      }) {}
 
 std::vector<MapFile> mapFiles(const HeightMap& map, MapFormat format) {
     switch (format) {

@@ -60,7 +60,8 @@ std::string jsonOf(const Results& results) {
                    {"program", results.program}, {"machine", results.machine},
                    {"device", results.device},   {"settings", results.settings},
                    {"notes", results.notes},     {"rows", rows}};
-    return all.dump(1) + '\n';
+    // A cage's name comes from its file's, which need not be UTF-8.
+    return all.dump(1, ' ', false, json::error_handler_t::replace) + '\n';
 }
 
 Results parseResults(const std::string& text, const std::string& name) {

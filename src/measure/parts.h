@@ -5,17 +5,14 @@
 
 namespace relief {
 
-/// A folder that is gone at the end of the scope.
+/// A folder that is gone at the end of the scope, and after an interrupt.
 class ScratchFolder {
 public:
     ScratchFolder();
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-    ~ScratchFolder();
-    [[nodiscard]] std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+    [[nodiscard]] std::string operator/(const std::string& name) const { return folder_.path() + "/" + name; }
 
 private:
-    std::string path_;
+    Temporary folder_;
 };
 
 /// A height map in a file.

@@ -1,8 +1,10 @@
 // The suites `memory` and `startup`: what the process takes beside the buffers that it lists, and what a cold start
 // costs.
+#include <csignal>
 #include <cstdlib>
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,6 +29,7 @@ Run runProgram(const std::vector<std::string>& words, const std::string& output,
     run.milliseconds = millisecondsOf([&] {
         const pid_t child = fork();
         if (child == 0) {
+            prctl(PR_SET_PDEATHSIG, SIGKILL); // an interrupt ends both
             if (isCold) setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
             const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
             if (file < 0 || dup2(file, STDOUT_FILENO) < 0) _exit(127);
@@ -39,7 +42,11 @@ Run runProgram(const std::vector<std::string>& words, const std::string& output,
         }
         if (child > 0) wait4(child, &status, 0, &usage);
     });
-    if (status != 0) fail(Failure::internal, "{} ended with status {}", words[0], status);
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    const bool isOfDevice = code == int(Failure::device); // it has said why
+    if (code != 0)
+        fail(isOfDevice ? Failure::device : Failure::internal, "{} {} ended with exit code {}", words[0], words[1],
+             code);
     run.peakBytes = std::uint64_t(usage.ru_maxrss) * 1024;
     return run;
 }

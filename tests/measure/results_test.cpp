@@ -72,6 +72,13 @@ TEST(Json, hasTheShapeOfItsSchemaAndReadsBack) {
     EXPECT_EQ(back.notes, results.notes);
 }
 
+TEST(Json, bearsNamesThatAreNotUtf8) {
+    Results results = sample();
+    results.rows[0].scene = "c\xe4ge";
+    const Results read = parseResults(jsonOf(results), "a.json");
+    EXPECT_EQ(read.rows[0].scene, "c\xEF\xBF\xBDge"); // U+FFFD
+}
+
 TEST(Json, ofAnotherShapeIsRefusedWithTheFilesName) {
     const std::string good = jsonOf(sample());
     const auto refused = [&](const std::string& text, const std::string& word) {

@@ -1,0 +1,156 @@
+// Files out, whole or not at all.
+#include "base/base.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace relief {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kMostLinks = 40; ///< one behind another, as the system has it
+
+[[noreturn]] void failToWrite(const std::string& path, int error) {
+    fail(Failure::file, "{}: cannot be written: {}", path, std::generic_category().message(error));
+}
+
+/// Where the bytes really go: a link keeps pointing where it points, and what it points to is made where it is not
+/// there yet. Devices and folders are refused, because the final rename would replace them; so are files that may not
+/// be written, which it would replace too.
+fs::path resolveTarget(const std::string& path) {
+    if (path.empty()) fail(Failure::usage, "the output file has no name");
+    std::error_code ignored;
+    const fs::file_status end = fs::status(path, ignored);
+    if (fs::exists(end) && !fs::is_regular_file(end))
+        fail(Failure::file, "{}: cannot be written: it is not an ordinary file", path);
+    fs::path target(path);
+    for (int links = 0; links <= kMostLinks; ++links) {
+        struct stat status {};
+        if (lstat(target.c_str(), &status) != 0) {
+            if (errno != ENOENT) failToWrite(path, errno);
+            return target;
+        }
+        if (!S_ISLNK(status.st_mode)) {
+            if (faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) failToWrite(path, errno);
+            return target;
+        }
+        target = target.parent_path() / fs::read_symlink(target);
+    }
+    failToWrite(path, ELOOP);
+}
+
+/// A new file that is to take the place of another. It has no name until then where the system knows such files; a
+/// process that is killed leaves nothing of those.
+class NewFile {
+public:
+    explicit NewFile(fs::path target);
+    NewFile(const NewFile&) = delete;
+    NewFile& operator=(const NewFile&) = delete;
+    ~NewFile() { close(file_); }
+
+    /// By what name this process and its children open it. Not its own name even where it has one: once that is removed
+    /// by an interrupt, no child can make it anew.
+    [[nodiscard]] std::string path() const { return hasDescriptorNames() ? descriptorName() : name_->path(); }
+
+    void takePlace();
+
+private:
+    [[nodiscard]] std::string descriptorName() const { return fmt::format("/proc/{}/fd/{}", getpid(), file_); }
+    [[nodiscard]] bool hasDescriptorNames() const { return access(descriptorName().c_str(), F_OK) == 0; }
+    [[nodiscard]] fs::path folder() const { return target_.has_parent_path() ? target_.parent_path() : "."; }
+    std::string makeNamed(const std::function<bool(const std::string& name)>& make) const;
+    void openNameless();
+    void openNamed();
+    void takePermissions() const;
+
+    fs::path target_;
+    int file_ = -1;
+    std::optional<Temporary> name_;
+};
+
+NewFile::NewFile(fs::path target) : target_(std::move(target)) {
+    openNameless();
+    if (file_ < 0) openNamed(); // some disks have no such files; and this says what else may be wrong
+    takePermissions();
+}
+
+void NewFile::openNameless() {
+    file_ = open(folder().c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    if (file_ >= 0 && !hasDescriptorNames()) close(std::exchange(file_, -1)); // nobody could open it
+}
+
+void NewFile::openNamed() {
+    name_.emplace([&] {
+        return makeNamed([&](const std::string& name) {
+            file_ = open(name.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0666);
+            return file_ >= 0;
+        });
+    });
+}
+
+/// Tries names in the target's folder until `make` has made one that nobody else uses.
+std::string NewFile::makeNamed(const std::function<bool(const std::string& name)>& make) const {
+    static std::atomic<unsigned> counter{0};
+    for (;;) {
+        std::string name = folder() / fmt::format(".relief-{}-{}", getpid(), counter++);
+        if (make(name)) return name;
+        if (errno != EEXIST)
+            fail(Failure::file, "{}: cannot write into its folder: {}", target_.string(),
+                 std::generic_category().message(errno));
+    }
+}
+
+/// Of the file that is to be replaced, as far as the system lets them be given.
+void NewFile::takePermissions() const {
+    struct stat old {};
+    if (stat(target_.c_str(), &old) != 0) return;
+    [[maybe_unused]] const int ownerError = fchown(file_, old.st_uid, old.st_gid);
+    [[maybe_unused]] const int modeError = fchmod(file_, old.st_mode & 0777);
+}
+
+void NewFile::takePlace() {
+    if (!name_)
+        name_.emplace([&] {
+            return makeNamed([&](const std::string& name) {
+                return linkat(AT_FDCWD, descriptorName().c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+            });
+        });
+    if (std::rename(name_->path().c_str(), target_.c_str()) != 0) failToWrite(target_.string(), errno);
+}
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+} // namespace
+
+void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write) {
+    NewFile file(resolveTarget(path));
+    write(file.path());
+    file.takePlace();
+}
+
+void checkWritable(const std::string& path) { const NewFile attempt(resolveTarget(path)); }
+
+void writeFile(const std::string& path, std::string_view bytes) {
+    writeWhole(path, [&](const std::string& temporary) {
+        std::unique_ptr<std::FILE, CloseFile> file(std::fopen(temporary.c_str(), "wb"));
+        if (!file) failToWrite(path, errno);
+        if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) failToWrite(path, errno);
+        if (std::fclose(file.release()) != 0) failToWrite(path, errno); // a full disk may show only here
+    });
+}
+
+} // namespace relief
