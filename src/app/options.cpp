@@ -286,10 +286,6 @@ void checkValidation(const Device& device) {
     if (count > 0) fail(Failure::internal, "the Vulkan validation layer has {} complaints", count);
 }
 
-namespace {}
-
-} // namespace
-
 HeightSpace heightSpaceOf(const std::string& word) {
     return word == "stretch" ? HeightSpace::stretch : HeightSpace::absolute;
 }
