@@ -53,7 +53,6 @@ double relativeWidth(std::span<const dvec3> points, double size) {
 
 /// What is wrong with the object whoever looks at it; "" for nothing.
 std::string faultOf(const EmptyView& view) {
-    if (view.points.empty()) return "all of its faces are holes";
     Bounds bounds;
     for (const dvec3& p : view.points) {
         if (!std::isfinite(p.x + p.y + p.z)) return "its heights move it to numbers that are not finite";

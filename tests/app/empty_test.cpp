@@ -51,12 +51,6 @@ TEST_F(Empty, saysThatAllPointsLieOnOneLine) {
     expectReason(render(cage, "--scheme none"), {"on one line"});
 }
 
-TEST_F(Empty, saysThatAllFacesAreHoles) {
-    std::string holes;
-    for (int face = 0; face < 6; ++face) holes += fmt::format("t hole 1/0/0 {}\n", face);
-    expectReason(render(putCube([](const dvec3& p) { return p; }, holes)), {"holes"});
-}
-
 TEST_F(Empty, saysThatTheCameraSeesNothing) {
     const std::string cage = cagePath("cube");
     expectReason(render(cage, "--look-at 100,0,0 --distance 5"), {"outside of the picture", "--look-at"});
