@@ -268,6 +268,29 @@ void readNumbers(const OpenImage& source, const Strip& strip, std::vector<char>&
     convertNumbers(type, stored, texels);
 }
 
+// OpenImageIO 2.4 does not read doubles in uncompressed tiles and very small strips of a TIFF: its buffer comes back as
+// the memory was, often zeros, and there is no error.
+
+bool isTiffOfDoubles(const OpenImage& source) {
+    return source.format == "tiff" && source.spec.format == OIIO::TypeDesc::DOUBLE;
+}
+
+[[noreturn]] void failAtDoubles(const OpenImage& source) {
+    failToDecode(
+        source.path, source.format,
+        "its 64-bit samples are not those of the file, as with some that are not supported; store 32-bit ones");
+}
+
+/// `stored`: what the library gave for the first rows from the first channel on.
+void checkFirstDouble(const OpenImage& source, std::span<const char> stored) {
+    if (!isTiffOfDoubles(source) || source.part > 0) return;
+    const std::optional<double> first = readTiffFacts(source.path).first;
+    double given = 0;
+    std::memcpy(&given, stored.data(), sizeof(given));
+    const bool isSame = !first || given == *first || (std::isnan(given) && std::isnan(*first));
+    if (!isSame) failAtDoubles(source);
+}
+
 /// Gives `take` the channels from `first` to before `end`, strip by strip.
 void readRows(const OpenImage& source, int first, int end, const TakeRows& take) {
     const OIIO::ImageSpec& spec = source.spec;
@@ -275,8 +298,7 @@ void readRows(const OpenImage& source, int first, int end, const TakeRows& take)
     const int step = stripHeight(spec, end - first);
     std::vector<float> texels;
     std::vector<char> stored;
-    // OpenImageIO 2.4 gives zeros for doubles in uncompressed tiles and very small strips of a TIFF, and no error.
-    bool isBlank = source.format == "tiff" && spec.format == OIIO::TypeDesc::DOUBLE;
+    bool isBlank = isTiffOfDoubles(source);
     for (Strip strip{first, end}; strip.y < spec.height; strip.y += strip.count) {
         strip.count = std::min(step, spec.height - strip.y);
         texels.resize(std::size_t(strip.count) * std::size_t(spec.width) * std::size_t(end - first));
@@ -284,13 +306,11 @@ void readRows(const OpenImage& source, int first, int end, const TakeRows& take)
             readNumbers(source, strip, stored, texels);
         else
             readStrip(source, strip, OIIO::TypeFloat, texels.data());
+        if (strip.y == 0 && first == 0) checkFirstDouble(source, stored);
         isBlank = isBlank && std::ranges::all_of(texels, [](float texel) { return texel == 0; });
         take(strip.y, strip.count, texels);
     }
-    if (isBlank)
-        failToDecode(
-            source.path, source.format,
-            "its 64-bit samples come out as nothing but 0, as of some that are not supported; store 32-bit ones");
+    if (isBlank) failAtDoubles(source);
     if (!source.input->close()) failToDecode(source.path, source.format, reason(*source.input));
 }
 

@@ -1,6 +1,7 @@
 #include "base/tiff_directory.h"
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -17,12 +18,16 @@ constexpr std::size_t kMostPages = 4096;
 constexpr std::array<std::uint64_t, 19> kTypeBytes = {0, 1, 1, 2, 4, 8, 1, 1, 2, 4, 8, 4, 8, 4, 0, 0, 8, 8, 8};
 
 enum Tag : std::uint64_t {
+    kBitsPerSample = 258,
+    kCompression = 259,
     kStripOffsets = 273,
     kStripByteCounts = 279,
     kTileOffsets = 324,
     kTileByteCounts = 325,
     kGdalNoData = 42113
 };
+
+constexpr std::uint64_t kNotCompressed = 1; ///< of tag Compression
 
 struct Entry {
     std::uint64_t tag = 0, type = 0, count = 0, at = 0; ///< `at`: where its values lie in the file
@@ -81,21 +86,30 @@ private:
         return values;
     }
 
+    std::uint64_t firstNumber(const Entry& entry) {
+        return entry.count > 0 ? number(entry.at, kTypeBytes[entry.type]) : 0;
+    }
+
     /// Returns where the next directory lies, 0 after the last one.
     std::uint64_t readDirectory(std::uint64_t at, bool isFirst) {
         const std::uint64_t countBytes = isBig_ ? 8 : 2, entryBytes = isBig_ ? 20 : 12, offsetBytes = isBig_ ? 8 : 4;
         const std::uint64_t count = number(at, countBytes), first = at + countBytes;
         if (count > size_ / entryBytes) facts_.isWhole = false;
         std::vector<std::uint64_t> offsets, sizes;
+        std::uint64_t bits = 0, compression = 0;
         for (std::uint64_t i = 0; i < count && facts_.isWhole; ++i) {
             const Entry entry = readEntry(first + i * entryBytes, offsetBytes);
             if (entry.type == 0) continue;
             if (entry.tag == kStripOffsets || entry.tag == kTileOffsets) offsets = numbers(entry);
             if (entry.tag == kStripByteCounts || entry.tag == kTileByteCounts) sizes = numbers(entry);
+            if (entry.tag == kBitsPerSample) bits = firstNumber(entry);
+            if (entry.tag == kCompression) compression = firstNumber(entry);
             if (isFirst && entry.tag == kGdalNoData) readNoData(entry);
         }
         // A piece that is not stored at all (a sparse file) has offset and size 0.
         for (std::size_t i = 0; i < std::min(offsets.size(), sizes.size()); ++i) isInside(offsets[i], sizes[i]);
+        if (isFirst && bits == 64 && compression == kNotCompressed && !offsets.empty() && isInside(offsets[0], 8))
+            facts_.first = std::bit_cast<double>(number(offsets[0], 8));
         return facts_.isWhole ? number(first + count * entryBytes, offsetBytes) : 0;
     }
 
