@@ -66,6 +66,10 @@ struct Bounds {
     [[nodiscard]] dvec3 center() const { return 0.5 * (lower + upper); }
     [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : glm::length(upper - lower); }
     [[nodiscard]] double longestSide() const;
+    /// From a point to the box, which is not empty; 0 inside.
+    [[nodiscard]] double distanceTo(const dvec3& p) const {
+        return glm::length(glm::max(glm::max(lower - p, p - upper), dvec3(0)));
+    }
 };
 
 // --- coordinates ------------------------------------------------------------------------------------------------
