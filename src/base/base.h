@@ -159,7 +159,7 @@ Image readImage(const std::string& path, int channel = -1, const ImageLimits& li
 
 /// Called with `count` rows from row `first` on: count * width * channels texels.
 using TakeRows = std::function<void(int first, int count, std::span<const float> texels)>;
-/// The same texels of all channels of the first part in strips of a few megabytes, from the top.
+/// Reads all channels of the first part, as readImage, in strips of a few megabytes from the top.
 void readImageRows(const std::string& path, const TakeRows& take, const ImageLimits& limits = {});
 
 /// The first texel that is NaN or infinite, by column, row and channel from 0.

@@ -65,6 +65,7 @@ void joinTexCoords(Cage& cage, const std::vector<std::uint32_t>& oldCorners) {
 
 /// One crease per edge and one sharpness per vertex: the largest of those that came together.
 void joinTags(Cage& cage) {
+    // Creases: the first one of an edge stays in its place.
     std::map<std::uint64_t, std::size_t> creases;
     std::size_t count = 0;
     for (std::size_t i = 0; i < cage.creaseSharpness.size(); ++i) {
@@ -80,6 +81,7 @@ void joinTags(Cage& cage) {
     cage.creaseEdges.resize(2 * count);
     cage.creaseSharpness.resize(count);
 
+    // Sharp vertices, in the order of their numbers.
     std::map<std::uint32_t, float> corners;
     for (std::size_t i = 0; i < cage.sharpVertices.size(); ++i) {
         float& sharpness = corners[cage.sharpVertices[i]];
