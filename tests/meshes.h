@@ -15,6 +15,10 @@ namespace relief::test {
 
 using Indices = std::vector<std::uint32_t>;
 
+inline double degreesBetween(const dvec3& a, const dvec3& b) {
+    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
+}
+
 /// Adds a face; texCorners are needed on all faces or on none.
 inline void addFace(Cage& cage, const Indices& corners, const Indices& texCorners = {}) {
     cage.faceSizes.push_back(std::uint32_t(corners.size()));

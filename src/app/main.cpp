@@ -95,7 +95,7 @@ void wantFiniteNumbers(CLI::App& verb) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Renders, animates, bakes and measures displaced subdivision surfaces.", "relief");
+    CLI::App app("Renders, animates, exports and measures displaced subdivision surfaces.", "relief");
     app.set_version_flag("--version", "relief 0.1.0");
     app.require_subcommand(1);
     app.footer("exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 reading or writing failed,\n"

@@ -8,7 +8,7 @@
 namespace relief {
 namespace {
 
-/// Filmic curve after Hable ("Uncharted 2", GDC 2010) as fitted by Narkowicz for ACES (2015), on each channel.
+/// Fit of the ACES tone curve by Narkowicz ("ACES filmic tone mapping curve", 2015), on each channel.
 float toneMapped(float x) {
     const float y = 0.8f * x;
     return std::clamp(y * (2.51f * y + 0.03f) / (y * (2.43f * y + 0.59f) + 0.14f), 0.0f, 1.0f);

@@ -43,10 +43,6 @@ std::vector<SampleQuery> cornerQueries(const Surface& surface) {
     return queries;
 }
 
-double degreesBetween(const dvec3& a, const dvec3& b) {
-    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
-}
-
 /// The largest angle between the device's limit normals in corners and the reference's.
 double worstCornerNormal(const Cage& cage, const SurfaceOptions& options) {
     const Surface surface = buildSurface(cage, options);

@@ -10,6 +10,7 @@
 namespace relief {
 
 using Polygon = std::vector<std::uint32_t>;
+using test::degreesBetween;
 
 inline Cage makeCage(std::vector<vec3> positions, const std::vector<Polygon>& polygons) {
     Cage cage;

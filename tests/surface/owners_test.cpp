@@ -147,10 +147,6 @@ TEST(Edges, OfSplitSidesAreConsecutivePartners) {
     });
 }
 
-double degreesBetween(const dvec3& a, const dvec3& b) {
-    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
-}
-
 // Where faces see different normals, the direction of displacement must be agreed: no touches means one normal.
 TEST(Touches, AreListedWhereverNormalsDisagree) {
     forFamilies(6, [](const Family& family, const Surface& surface) {

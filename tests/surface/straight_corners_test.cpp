@@ -11,10 +11,6 @@
 namespace relief {
 namespace {
 
-double degreesBetween(const dvec3& a, const dvec3& b) {
-    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
-}
-
 /// An open grid of quads, or of their halves, that is rough, turned and stretched by `seed`.
 Cage randomGrid(int columns, int rows, std::uint32_t seed) {
     Cage cage = withoutTexCoords(test::boundaryGrid(columns, rows));
