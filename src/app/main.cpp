@@ -1,12 +1,10 @@
 // relief: displaced subdivision surfaces on any Vulkan 1.3 device.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <new>
 #include <set>
 #include <stdexcept>
