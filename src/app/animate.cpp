@@ -206,7 +206,10 @@ DrawnFrame FrameMaker::draw(int frame) {
 std::string FrameMaker::complaintOf(const DrawnFrame& drawn) const {
     if (!isSparse(drawn.picture)) return "";
     std::vector<dvec3> points(loaded_.cage.positions.begin(), loaded_.cage.positions.end());
-    if (!isDense_) {
+    if (polygons_) {
+        const DenseMesh mesh = polygons_->at(secondsOf(drawn.frame, args_.surface.pose));
+        points.assign(mesh.positions.begin(), mesh.positions.end());
+    } else if (!isDense_) {
         ReferenceSurface coarse(loaded_.cage, {.scheme = loaded_.options.scheme, .isolation = 2});
         if (poser_) coarse.pose(posedPositions(loaded_.animation->rig(), poseAt(drawn.frame)));
         points = outline(coarse, nullptr);
