@@ -319,7 +319,11 @@ GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest
     GltfBinding binding = Binder(scene, sources, match, path).bind();
     binding.posed = posedCoordinates(match, cage);
     const bool takesCage = bindsNearest && !match.isAtRest;
-    if (takesCage) binding.rig.rest = cage.positions;
+    if (takesCage) {
+        binding.rig.rest = cage.positions;
+        const double factor = binding.rest.unit / cage.coordinates.unit;
+        for (vec3& offset : binding.rig.morphOffsets) offset = factor * dvec3(offset);
+    }
     startFrom(takesCage ? cage.coordinates : binding.rest, binding);
     if (takesCage || !bindsNearest) return binding;
     const std::size_t flatCount = keepPlaces(scene, cage, binding);
