@@ -2,6 +2,7 @@
 #include <bit>
 #include <cstring>
 #include <filesystem>
+#include <fstream> // for the source of tinygltf
 #include <limits>
 
 #define TINYGLTF_IMPLEMENTATION
