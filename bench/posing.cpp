@@ -22,6 +22,7 @@ struct OsdStencils {
     std::vector<int> sizes, offsets, indices;
     std::vector<float> weights, from, to;
 
+    /// Theirs are of the cage's points alone: there are no shared rows.
     OsdStencils(const Stencils& stencils, std::span<const vec3> positions)
         : offsets(stencils.offsets.begin(), stencils.offsets.end() - 1),
           indices(stencils.indices.begin(), stencils.indices.end()), weights(stencils.weights),
@@ -55,6 +56,8 @@ Cage repeated(const Cage& cage, std::uint32_t count) {
 
 void benchCage(Device& device, const std::string& name, const Cage& cage, int isolation) {
     const Surface surface = buildSurface(cage, {.isolation = isolation});
+    if (surface.stencils.sharedRowCount > 0)
+        fail(Failure::input, "{}: a vertex or face has too many neighbours for OpenSubdiv's stencils", name);
     Model model(device, {.surface = &surface, .cagePositions = cage.positions});
     Poser poser(device, model, {.surface = &surface});
     const Pose pose{.positions = cage.positions, .joints = {}, .morphWeights = {}};

@@ -1,22 +1,23 @@
 // The surface's tables as the device holds them: records of one or two texels of four words, in kBindRecords. What they
 // say is in shared/surface.h; here are their bits, from the lowest on.
 //
+// clang-format off
 //              x                            y                        z                          w
 //   Face       root                         sides[0]                 sides[1]                   sides[2]
 //              sides[3]                     cageFace                 -                          -
-//   Edge       face:28 side:2 flags:2       corners[0]:30 span:2     corners[1]:30 partner:2    first touch, kNoTouch:
-//   smooth Corner     face:28 side:2 flags:2       isMiddle:1 touches:31    first touch                - Touch face
-//   side:8 count:24          start                      end Patch      its nets                     base base of
-//   texture points     type:4 type of texture:4
-//                                                                                               boundary:5 of texture:5
-//                                                                                               texels:6 straight
-//                                                                                               corners:4
+//   Edge       face:28 side:2 flags:2       corners[0]:30 span:2     corners[1]:30 partner:2    first touch, kNoTouch: smooth
+//   Corner     face:28 side:2 flags:2       isMiddle:1 touches:31    first touch                -
+//   Touch      face                         side:8 count:24          start                      end
+//   Patch      its nets                     base                     base of texture points     type:4 type of texture:4
+//                                                                                               boundary:5 of texture:5 texels:6
+//                                                                                               straight corners:4
+// clang-format on
 //
 // Touches are counted from the first one. `count` is how many touches the edge has, in its first; at a corner it is
-// Surface::sectorFaces of the touch. The nets of a patch are the texel where
-// the numbers of its control points begin, less its base, eight 16-bit numbers a texel; those of its texture
-// coordinates follow after `texels` texels. Where the points of a patch are too far apart for 16 bits all patches have
-// a base of 0 and four 32-bit numbers a texel (kHasWideNets).
+// Surface::sectorFaces of the touch. The nets of a patch are the texel where the numbers of its control points begin,
+// less its base, eight 16-bit numbers a texel; those of its texture coordinates follow after `texels` texels. Where the
+// points of a patch are too far apart for 16 bits all patches have a base of 0 and four 32-bit numbers a texel
+// (kHasWideNets).
 #ifndef RELIEF_SHARED_RECORDS_H
 #define RELIEF_SHARED_RECORDS_H
 

@@ -43,7 +43,7 @@ public:
     explicit Animation(const Coordinates& coordinates = {}) : coordinates_(coordinates) {}
     virtual ~Animation() = default;
 
-    /// Of all poses: what positions and joints are told in. Those of the cage, unless a skin stands elsewhere.
+    /// Of all poses: what positions and joints are in. Those of the cage, unless a skin stands elsewhere.
     [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
 
     /// The same bits for the same time, whatever was asked before. Throws Failure::input or Failure::file, naming the

@@ -10,7 +10,7 @@ namespace relief {
 namespace {
 
 constexpr double kStandInSeconds = 4; ///< what moves without an end is shown for so long
-constexpr double kFarthest = 1e6;     ///< diagonals of the box that a point may move: floats tell no points apart there
+constexpr double kFarthest = 1e6; ///< diagonals of the box that a point may move: floats do not separate points there
 
 struct Deformer {
     const DeformerKind* kind = nullptr;

@@ -89,9 +89,7 @@ Match matchNearest(const Cage& cage, std::vector<dvec3> places, bool isAtRest) {
         const dvec3 p(position);
         double nearest = std::numeric_limits<double>::infinity();
         std::uint32_t found = 0;
-        const auto distance = [&](const Bounds& box) {
-            return glm::length(glm::max(glm::max(box.lower - p, p - box.upper), dvec3(0)));
-        };
+        const auto distance = [&](const Bounds& box) { return box.distanceTo(p); };
         tree.search(distance, nearest, [&](std::uint32_t source) {
             const double away = glm::length(tree[source] - p);
             if (away < nearest || (away == nearest && source < found)) nearest = away, found = source;
@@ -298,7 +296,7 @@ std::size_t keepPlaces(const GltfScene& scene, const Cage& cage, GltfBinding& bi
 Coordinates posedCoordinates(const Match& match, const Cage& cage) {
     if (match.isAtRest) return cage.coordinates;
     Coordinates coordinates = coordinatesFor(cage.coordinates.toWorld(match.bounds));
-    coordinates.unit = cage.coordinates.unit; // heights and lengths are told in it already
+    coordinates.unit = cage.coordinates.unit; // heights and lengths are in it already
     return coordinates;
 }
 
@@ -321,7 +319,11 @@ GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest
     GltfBinding binding = Binder(scene, sources, match, path).bind();
     binding.posed = posedCoordinates(match, cage);
     const bool takesCage = bindsNearest && !match.isAtRest;
-    if (takesCage) binding.rig.rest = cage.positions;
+    if (takesCage) {
+        binding.rig.rest = cage.positions;
+        const double factor = binding.rest.unit / cage.coordinates.unit;
+        for (vec3& offset : binding.rig.morphOffsets) offset = factor * dvec3(offset);
+    }
     startFrom(takesCage ? cage.coordinates : binding.rest, binding);
     if (takesCage || !bindsNearest) return binding;
     const std::size_t flatCount = keepPlaces(scene, cage, binding);

@@ -116,6 +116,7 @@ std::unique_ptr<Animation> readPc2(const std::string& path, const Cage& cage, co
         fail(Failure::input, "{}: this is no .pc2: it does not start with POINTCACHE2", path);
     checkHeaderLength(file, kPc2HeaderBytes);
 
+    // What the header says.
     const std::vector<std::uint32_t> words = file.words(kPc2Magic.size(), 5);
     const std::uint32_t version = words[0], pointCount = words[1], sampleCount = words[4];
     const float start = std::bit_cast<float>(words[2]), rate = std::bit_cast<float>(words[3]);
@@ -129,6 +130,7 @@ std::unique_ptr<Animation> readPc2(const std::string& path, const Cage& cage, co
         fail(Failure::input, "{}: the sample rate is {} frames per sample; {} to {} are possible; {}", path, rate,
              kLeastRate, kMostRate, kCountFrames);
     checkFrameCount(path, sampleCount);
+    // Where its samples are, and when.
     const CacheBody body{.offset = kPc2HeaderBytes,
                          .pointCount = pointCount,
                          .frameCount = sampleCount,

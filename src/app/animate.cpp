@@ -77,47 +77,6 @@ std::vector<int> framesOf(const AnimateArgs& args, const Animation* animation) {
 
 double secondsOf(int frame, const PoseArgs& pose) { return frame / pose.fps; }
 
-/// Outlines of poses spread over the keys, whichever frames are rendered: a frame looks the same in every range.
-std::vector<dvec3> outlineOfAll(const Loaded& loaded) {
-    if (!loaded.animation) return outlineOf(loaded);
-    constexpr int kPoses = 9;
-    std::optional<ReferenceSurface> coarse;
-    if (!loaded.dense) coarse.emplace(loaded.cage, SurfaceOptions{.scheme = loaded.options.scheme, .isolation = 2});
-    const dvec2 range = loaded.animation->keyRange();
-    std::vector<dvec3> points;
-    for (int i = 0; i < (range.x < range.y ? kPoses : 1); ++i) {
-        const Pose pose = loaded.animation->pose(glm::mix(range.x, range.y, double(i) / (kPoses - 1)));
-        const std::vector<vec3> posed = posedPositions(loaded.animation->rig(), pose);
-        std::vector<dvec3> more(posed.begin(), posed.end());
-        if (coarse) {
-            coarse->pose(posed);
-            more = outline(*coarse, loaded.heightMap());
-        }
-        points.insert(points.end(), more.begin(), more.end());
-    }
-    return points;
-}
-
-/// Fixes where the camera looks and from how far: so that it holds all points, from all sides of a turn.
-void holdCamera(CameraArgs& camera, std::span<const dvec3> points, bool isTurn) {
-    constexpr int kSides = 24;
-    if (isTurn && camera.lookAt.empty()) {
-        Bounds bounds;
-        for (const dvec3& p : points) bounds.add(p);
-        camera.lookAt = {bounds.center().x, bounds.center().y, bounds.center().z};
-    }
-    CameraArgs side = camera;
-    double farthest = 0;
-    Camera held;
-    for (int i = 0; i < (isTurn ? kSides : 1); ++i) {
-        side.options.azimuth = camera.options.azimuth + 360.0 * i / kSides;
-        held = cameraOf(side, points);
-        farthest = std::max(farthest, glm::length(held.eye - held.target));
-    }
-    camera.lookAt = {held.target.x, held.target.y, held.target.z};
-    camera.distance = farthest;
-}
-
 // --- frames --------------------------------------------------------------------------------------------------------
 
 /// A finished picture and what it took.
@@ -247,7 +206,10 @@ DrawnFrame FrameMaker::draw(int frame) {
 std::string FrameMaker::complaintOf(const DrawnFrame& drawn) const {
     if (!isSparse(drawn.picture)) return "";
     std::vector<dvec3> points(loaded_.cage.positions.begin(), loaded_.cage.positions.end());
-    if (!isDense_) {
+    if (polygons_) {
+        const DenseMesh mesh = polygons_->at(secondsOf(drawn.frame, args_.surface.pose));
+        points.assign(mesh.positions.begin(), mesh.positions.end());
+    } else if (!isDense_) {
         ReferenceSurface coarse(loaded_.cage, {.scheme = loaded_.options.scheme, .isolation = 2});
         if (poser_) coarse.pose(posedPositions(loaded_.animation->rig(), poseAt(drawn.frame)));
         points = outline(coarse, nullptr);

@@ -53,7 +53,7 @@ int exitCodeOf(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// How each format is encoded: the file's name does not tell. Players want even sides and 4:2:0 of .mp4; a .gif gets a
+/// How each format is encoded: the file's name does not say. Players want even sides and 4:2:0 of .mp4; a .gif gets a
 /// palette of its own colors.
 Words encoding(const std::string& extension) {
     if (extension == ".mp4")
@@ -89,7 +89,7 @@ void checkClipWriter() {
 }
 
 ClipWriter::ClipWriter(const ClipDesc& desc) : desc_(desc) {
-    std::signal(SIGPIPE, SIG_IGN); // an ffmpeg that ends early is told by write()
+    std::signal(SIGPIPE, SIG_IGN); // write() reports an ffmpeg that ends early
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) fail(Failure::file, "{}: no pipe to ffmpeg can be made", desc_.path);
     pipe_ = ends[1];

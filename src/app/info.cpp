@@ -153,7 +153,7 @@ bool isCage(const std::string& path) {
 
 std::string text(const json& value) {
     if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_float()) // far from the origin six digits do not tell places apart
+    if (value.is_number_float()) // far from the origin six digits do not separate places
         return fmt::format("{:.{}g}", value.get<double>(), std::abs(value.get<double>()) < 1e5 ? 6 : 12);
     if (!value.is_structured()) return value.dump();
     std::string joined;

@@ -1,12 +1,10 @@
 // relief: displaced subdivision surfaces on any Vulkan 1.3 device.
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <iostream>
 #include <new>
 #include <set>
 #include <stdexcept>
@@ -166,7 +164,7 @@ void occupyStandardFiles() {
 
 int main(int argc, char** argv) {
     mallopt(M_MMAP_THRESHOLD, 1 << 20); // large arrays go back to the system when they are freed, at once
-    std::signal(SIGXFSZ, SIG_IGN);      // files that may not grow (ulimit -f) are then told of by write()
+    std::signal(SIGXFSZ, SIG_IGN);      // write() then reports files that may not grow (ulimit -f)
     std::set_terminate(endTerminated);
     app::endWhereMemoryRunsOut();
     try {

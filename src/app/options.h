@@ -158,6 +158,10 @@ private:
 Loaded load(const SurfaceArgs& args, const Output& output, const std::string& albedo = "");
 /// Points for framing: a coarse reference is enough.
 std::vector<dvec3> outlineOf(const Loaded& loaded);
+/// Outlines of poses spread over the keys, whichever frames are rendered: a frame looks the same in every range.
+std::vector<dvec3> outlineOfAll(const Loaded& loaded);
+/// Fixes where the camera looks and from how far: so that it holds all points, from all sides of a turn.
+void holdCamera(CameraArgs& camera, std::span<const dvec3> points, bool isTurn);
 /// Heights that stretch with a posed cage are the device's to make: null where heights are absolute or the cage at
 /// rest.
 std::unique_ptr<Poser> stretchHeights(Device& device, Model& model, const Loaded& loaded,

@@ -1,6 +1,5 @@
 #include "app/output.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 

@@ -54,7 +54,7 @@ std::vector<SampleQuery> readPoints(const std::string& path) {
     return queries;
 }
 
-/// Numbers in the world. Nine digits tell floats apart; places far from the origin take those of a double.
+/// Numbers in the world. Nine digits give each float back; places far from the origin take the digits of a double.
 class Rows {
 public:
     explicit Rows(const Coordinates& coordinates) : coordinates_(coordinates) {}

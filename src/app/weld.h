@@ -13,7 +13,7 @@ void addWeld(CLI::App& app, std::string& word);
 
 /// Joins the vertices of a cage that is loaded and what moves it, if --weld asks for it ("": it does not).
 void weldLoaded(Loaded& loaded, const std::string& word);
-/// The same of a cage alone.
+/// Joins the vertices of a cage that nothing moves, if --weld asks for it.
 Cage welded(Cage cage, const std::string& word);
 
 /// Warns of a surface that is open where it probably should not be.

@@ -66,6 +66,10 @@ struct Bounds {
     [[nodiscard]] dvec3 center() const { return 0.5 * (lower + upper); }
     [[nodiscard]] double diagonal() const { return isEmpty() ? 0 : glm::length(upper - lower); }
     [[nodiscard]] double longestSide() const;
+    /// From a point to the box, which is not empty; 0 inside.
+    [[nodiscard]] double distanceTo(const dvec3& p) const {
+        return glm::length(glm::max(glm::max(lower - p, p - upper), dvec3(0)));
+    }
 };
 
 // --- coordinates ------------------------------------------------------------------------------------------------
@@ -155,7 +159,7 @@ Image readImage(const std::string& path, int channel = -1, const ImageLimits& li
 
 /// Called with `count` rows from row `first` on: count * width * channels texels.
 using TakeRows = std::function<void(int first, int count, std::span<const float> texels)>;
-/// The same texels of all channels of the first part in strips of a few megabytes, from the top.
+/// Reads all channels of the first part, as readImage, in strips of a few megabytes from the top.
 void readImageRows(const std::string& path, const TakeRows& take, const ImageLimits& limits = {});
 
 /// The first texel that is NaN or infinite, by column, row and channel from 0.

@@ -260,7 +260,7 @@ void readStrip(const OpenImage& source, const Strip& strip, const OIIO::TypeDesc
     if (!isRead || input.has_error()) failToDecode(source.path, source.format, reason(input));
 }
 
-/// The same converted to floats. `stored` is its memory.
+/// Reads a strip of samples that convertNumbers turns into floats. `stored` is kept for the next one.
 void readNumbers(const OpenImage& source, const Strip& strip, std::vector<char>& stored, std::vector<float>& texels) {
     const OIIO::TypeDesc type = source.spec.format;
     stored.resize(texels.size() * type.size());

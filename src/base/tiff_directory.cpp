@@ -1,12 +1,14 @@
 #include "base/tiff_directory.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <set>
 #include <vector>
+
+#include "base/base.h"
 
 namespace relief {
 namespace {
@@ -35,9 +37,7 @@ struct Entry {
 
 class TiffReader {
 public:
-    explicit TiffReader(const std::string& path) : file_(path, std::ios::binary) {
-        file_.seekg(0, std::ios::end);
-        size_ = std::uint64_t(file_.tellg());
+    explicit TiffReader(const std::string& path) : file_(path), size_(file_.size()) {
         isBigEndian_ = bytes(0, 1) == "M";
         isBig_ = number(2, 2) == 43;
     }
@@ -55,15 +55,14 @@ private:
     std::string bytes(std::uint64_t at, std::uint64_t count) {
         if (!isInside(at, count)) return "";
         std::string result(count, '\0');
-        file_.clear();
-        file_.seekg(std::streamoff(at));
-        if (!file_.read(result.data(), std::streamsize(count))) facts_.isWhole = false;
+        if (file_.read(at, result.data(), count) != count) facts_.isWhole = false;
         return result;
     }
 
-    std::uint64_t number(std::uint64_t at, std::uint64_t count) {
+    std::uint64_t number(std::uint64_t at, std::uint64_t count) { return valueOf(bytes(at, count)); }
+
+    [[nodiscard]] std::uint64_t valueOf(std::string_view digits) const {
         std::uint64_t value = 0;
-        const std::string digits = bytes(at, count);
         for (std::size_t i = 0; i < digits.size(); ++i) {
             const std::size_t place = isBigEndian_ ? digits.size() - 1 - i : i;
             value |= std::uint64_t(static_cast<unsigned char>(digits[i])) << (8 * place);
@@ -81,8 +80,9 @@ private:
         std::vector<std::uint64_t> values;
         if (entry.count > kMostEntries) return values;
         const std::uint64_t width = kTypeBytes[entry.type];
-        for (std::uint64_t i = 0; i < entry.count && facts_.isWhole; ++i)
-            values.push_back(number(entry.at + i * width, width));
+        const std::string all = bytes(entry.at, entry.count * width);
+        for (std::size_t at = 0; at < all.size(); at += width)
+            values.push_back(valueOf(std::string_view(all).substr(at, width)));
         return values;
     }
 
@@ -135,7 +135,7 @@ private:
         if (end != text.c_str()) facts_.noData = value;
     }
 
-    std::ifstream file_;
+    InputFile file_;
     std::uint64_t size_ = 0;
     bool isBigEndian_ = false, isBig_ = false;
     TiffFacts facts_;

@@ -1,4 +1,4 @@
-// Internal: what a TIFF's directories say that its reader passes over.
+// Internal: what a TIFF's directories say that its reader ignores.
 #pragma once
 
 #include <optional>

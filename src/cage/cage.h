@@ -62,16 +62,16 @@ struct Cage {
 ///
 /// From glTF 2.0 it takes the triangles of all meshes in the file's scene, where they stand in the world when no
 /// animation moves them. Vertices of one node with the same bits of position become one, so that seams and hard edges
-/// are no boundaries; a vertex's texture coordinates and normals stay its own. Triangles of
-/// meshes without normals are flat: each has one of its own. A part is a primitive, named after its
-/// node (or its mesh) and its material.
+/// are no boundaries; a vertex's texture coordinates and normals stay its own. Triangles of meshes without
+/// normals are flat: each has one of its own. A part is a primitive, named after its node (or its mesh) and its
+/// material.
 Cage readCage(const std::string& path, const Warn& warn = warnOnStderr);
 
 /// The same from text in memory; `name` stands for the file in messages.
 /// Tags count vertices and faces from 0 through the whole file, whatever object they stand in. Degenerate faces (fewer
 /// than 3 corners, a vertex used twice), corners that repeat the one before and normals that some faces lack are
 /// dropped with a warning, texture coordinates that some faces lack without one (Cage::missingTexCoords). Positions are
-/// read in double precision, and told in `coordinates` where those are given.
+/// read in double precision, and stored in `coordinates` where those are given.
 Cage parseObj(const std::string& text, const std::string& name, const Warn& warn = warnOnStderr,
               const std::optional<Coordinates>& coordinates = {});
 

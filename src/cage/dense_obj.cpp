@@ -52,7 +52,7 @@ bool isDegenerate(const DenseMesh& mesh, const Places& places, std::size_t trian
     return place(0) == place(1) || place(1) == place(2) || place(2) == place(0);
 }
 
-/// In the world: doubles, where floats could not tell vertices apart.
+/// In the world: doubles, where floats could not separate vertices.
 void putPositions(ObjLines& lines, const DenseMesh& mesh, const Places& places, Progress& progress) {
     const auto position = [&](std::size_t i) { return mesh.positions[places.firsts[i]]; };
     const auto inWorld = [&](std::size_t i) { return mesh.coordinates.toWorld(position(i)); };

@@ -1,7 +1,8 @@
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
+#include <fstream> // for the source of tinygltf
 #include <limits>
 
 #define TINYGLTF_IMPLEMENTATION
@@ -97,17 +98,14 @@ std::string filePlace(const std::string& uri, const GltfElement& buffer) {
 /// The first `length` bytes; a file may have more (section 3.6.1.1).
 std::string firstBytes(const std::string& path, std::uint64_t length, const GltfElement& buffer) {
     std::error_code error;
-    if (!fs::is_regular_file(path, error))
+    if (!fs::exists(path, error))
         fail(Failure::file, "{}: there is no such file; {} of {} is to be in it", path, buffer.place(), buffer.path());
-    const std::uint64_t size = fs::file_size(path, error);
-    if (error) fail(Failure::file, "{}: cannot be read: {}", path, error.message());
-    if (size < length)
-        fail(Failure::input, "{}: {} bytes, {} of {} has {}; is it whole?", path, size, buffer.place(), buffer.path(),
+    const InputFile file(path);
+    std::string bytes(std::min(length, file.size()), '\0');
+    const std::size_t count = file.read(0, bytes.data(), bytes.size());
+    if (count < length)
+        fail(Failure::input, "{}: {} bytes, {} of {} has {}; is it whole?", path, count, buffer.place(), buffer.path(),
              length);
-    std::string bytes(length, '\0');
-    std::ifstream file(path, std::ios::binary);
-    if (!file.read(bytes.data(), std::streamsize(length)))
-        fail(Failure::file, "{}: cannot be read: {}", path, std::generic_category().message(errno));
     return bytes;
 }
 

@@ -11,9 +11,9 @@
 namespace relief {
 namespace {
 
-/// What the decoder takes while it works, in numbers of 32 bits a face.
+/// What the decoder takes while it works, in numbers of 32 bits per face.
 constexpr std::uint64_t kNumbersPerFace = 16;
-/// A plane of equal steps, the best case of the encoder, has about 90 faces a byte.
+/// A plane of equal steps, the best case of the encoder, has about 90 faces per byte.
 constexpr std::uint64_t kMostFacesPerByte = 1024;
 
 struct DracoCounts {
@@ -21,8 +21,8 @@ struct DracoCounts {
     bool isEdgebreaker = false;
 };
 
-/// The counts that a stream begins with; nothing where it is none of a mesh (draft bitstream specification 2.2, section
-/// 3 and 4).
+/// The counts that a stream begins with; nothing where it is none of a mesh (draft bitstream specification 2.2,
+/// sections 3 and 4).
 std::optional<DracoCounts> countsOf(std::span<const unsigned char> bytes) {
     constexpr std::string_view kMagic = "DRACO";
     constexpr std::uint16_t kVersion = 2 << 8 | 2, kHasMetadata = 0x8000;

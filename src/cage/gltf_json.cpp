@@ -39,7 +39,7 @@ void checkDepth(std::string_view text, const std::string& path) {
 /// The message without the library's own name for it.
 std::string_view reasonOf(std::string_view error) { return error.substr(error.find(']') + 1); }
 
-/// glTF 1.0 has objects where 2.0 has lists, and may leave out "asset".
+/// glTF 1.0 has objects where 2.0 has lists, and may omit "asset".
 void checkVersion(const Json& json, const std::string& path) {
     constexpr const char* kNeed = "{}: glTF of version {}; relief reads 2.0, so export it again as glTF 2.0";
     const auto isDictionary = [&](const char* name) { return json.contains(name) && json[name].is_object(); };

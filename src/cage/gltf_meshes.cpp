@@ -180,6 +180,7 @@ void PrimitiveReader::readTargets() {
 
 /// Joints and weights come in sets of four (section 3.7.3.3).
 void PrimitiveReader::readInfluences() {
+    // All sets of the file.
     std::vector<std::vector<std::uint32_t>> joints;
     std::vector<std::vector<float>> weights;
     for (;;) {
@@ -200,6 +201,7 @@ void PrimitiveReader::readInfluences() {
         reading_.oddities.add("of more than 8 joints at a vertex the 8 largest weights are kept, in primitives",
                               from_.place());
 
+    // Vertex by vertex, as many as are kept.
     primitive_.influenceCount = std::min(std::uint32_t(4 * joints.size()), kMostGltfInfluences);
     std::vector<std::uint32_t> jointsOfVertex(4 * joints.size());
     std::vector<float> weightsOfVertex(4 * joints.size());

@@ -84,7 +84,7 @@ public:
     /// Throws where so many numbers more are too many: accessors of the same bytes, or of none, must not fill the
     /// memory.
     void checkRoom(std::uint64_t numberCount, const std::string& place) const;
-    /// The same, and counts them: memory is about to be taken for them.
+    /// Throws as checkRoom, else counts the numbers: memory is about to be taken for them.
     void takeRoom(std::uint64_t numberCount, const std::string& place);
     [[nodiscard]] GltfBuffers& buffers() { return buffers_; }
 

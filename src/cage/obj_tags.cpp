@@ -6,10 +6,10 @@
 #include <array>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "cage/edges.h"
 #include "cage/obj.h"
+#include "cage/places.h"
 
 namespace relief {
 
@@ -99,9 +99,8 @@ void TagReader::addCrease(std::uint32_t a, std::uint32_t b, float sharpness) {
 }
 
 void TagReader::findPlaces() {
-    std::map<std::tuple<float, float, float>, std::uint32_t> firsts;
-    for (const auto& p : cage_.positions)
-        places_.push_back(firsts.try_emplace({p.x, p.y, p.z}, std::uint32_t(places_.size())).first->second);
+    const Places places = relief::findPlaces(cage_.positions);
+    for (const std::uint32_t place : places.ofPoints) places_.push_back(places.firsts[place]);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         const std::uint64_t key = edges_[i].key;
         if (i > 0 && edges_[i - 1].key == key) continue;

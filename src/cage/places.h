@@ -9,7 +9,7 @@ namespace relief {
 
 /// Places numbered from 0 in order of their first point; points are at one place when their coordinates are equal.
 struct Places {
-    std::vector<std::uint32_t> ofPoints; ///< one a point
+    std::vector<std::uint32_t> ofPoints; ///< one per point
     std::vector<std::uint32_t> firsts;   ///< the first point at each place
 
     [[nodiscard]] std::size_t count() const { return firsts.size(); }

@@ -26,10 +26,6 @@ std::vector<std::uint32_t> boundaryVertices(const Cage& cage) {
     return vertices;
 }
 
-double distanceTo(const Bounds& box, const dvec3& p) {
-    return glm::length(glm::max(glm::max(box.lower - p, p - box.upper), dvec3(0)));
-}
-
 /// For each vertex the one that it joins: itself, or a boundary vertex of a lower index within the distance. A vertex
 /// that others join joins none, so that chains of vertices do not run together.
 std::vector<std::uint32_t> findTargets(const Cage& cage, double distance) {
@@ -43,7 +39,7 @@ std::vector<std::uint32_t> findTargets(const Cage& cage, double distance) {
     std::vector<bool> isTaken(vertices.size(), false);
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
         if (isTaken[i]) continue;
-        const auto boxDistance = [&](const Bounds& box) { return distanceTo(box, tree[i]); };
+        const auto boxDistance = [&](const Bounds& box) { return box.distanceTo(tree[i]); };
         tree.search(boxDistance, distance, [&](std::uint32_t other) {
             if (other <= i || isTaken[other] || glm::length(tree[other] - tree[i]) > distance) return;
             isTaken[other] = true;
@@ -67,8 +63,9 @@ void joinTexCoords(Cage& cage, const std::vector<std::uint32_t>& oldCorners) {
     }
 }
 
-/// One crease an edge and one sharpness a vertex: the largest of those that came together.
+/// One crease per edge and one sharpness per vertex: the largest of those that came together.
 void joinTags(Cage& cage) {
+    // Creases: the first one of an edge stays in its place.
     std::map<std::uint64_t, std::size_t> creases;
     std::size_t count = 0;
     for (std::size_t i = 0; i < cage.creaseSharpness.size(); ++i) {
@@ -84,6 +81,7 @@ void joinTags(Cage& cage) {
     cage.creaseEdges.resize(2 * count);
     cage.creaseSharpness.resize(count);
 
+    // Sharp vertices, in the order of their numbers.
     std::map<std::uint32_t, float> corners;
     for (std::size_t i = 0; i < cage.sharpVertices.size(); ++i) {
         float& sharpness = corners[cage.sharpVertices[i]];

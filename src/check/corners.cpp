@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "check/angles.h"
 #include "check/check.h"
 
 namespace relief {
@@ -11,10 +12,6 @@ namespace {
 /// nearer, since OpenSubdiv's tangents of straight corners are 1.5e-5 off.
 constexpr double kBeside = 1.0 / 1024;
 
-double angleBetween(const dvec3& a, const dvec3& b) {
-    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
-}
-
 /// Degrees between `normal` and the reference's normals beside the corner, less the turn of these.
 double turnAtCorner(const ReferenceSurface& reference, const SampleQuery& corner, const dvec3& normal) {
     const dvec2 uv(corner.uv);
@@ -22,7 +19,7 @@ double turnAtCorner(const ReferenceSurface& reference, const SampleQuery& corner
     const dvec2 diagonal = dvec2(1) - (reference.sideCount() == 4 ? 2.0 : 3.0) * uv;
     const dvec3 beside = reference.normal(int(corner.face), uv + kBeside * diagonal);
     const dvec3 farther = reference.normal(int(corner.face), uv + 2 * kBeside * diagonal);
-    const double turn = angleBetween(normal, beside) - angleBetween(beside, farther);
+    const double turn = degreesBetween(normal, beside) - degreesBetween(beside, farther);
     return std::isnan(turn) ? std::numeric_limits<double>::infinity() : turn;
 }
 

@@ -1,7 +1,8 @@
-// Where a displacement along the normal folds the surface over itself, and what leaving out curvature costs.
+// Where a displacement along the normal folds the surface over itself, and what omitting curvature costs.
 #include <algorithm>
 #include <cmath>
 
+#include "check/angles.h"
 #include "check/check.h"
 #include "shared/displacement.h"
 
@@ -55,7 +56,7 @@ double normalAngle(const LimitFrame& f, const NormalFrame& normal, const SampleR
     const dvec3 first = formulas::firstOrderNormal(normal.n, f.pu, f.pv, dh);
     const dvec3 full = glm::cross(formulas::displacedTangent(f.pu, normal.n, normal.nu, h, dh.x),
                                   formulas::displacedTangent(f.pv, normal.n, normal.nv, h, dh.y));
-    return glm::degrees(std::atan2(glm::length(glm::cross(first, full)), glm::dot(first, full)));
+    return degreesBetween(first, full);
 }
 
 /// Sums angle times area into meanNormalAngle.

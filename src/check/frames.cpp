@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "check/angles.h"
 #include "check/check.h"
 
 namespace relief {
@@ -23,10 +24,6 @@ void finish(RegionErrors& errors) {
     root(errors.point, errors.count);
     for (ErrorSummary* summary : {&errors.tangent, &errors.limitNormal, &errors.normal})
         root(*summary, errors.count - errors.countWithoutNormal);
-}
-
-double degreesBetween(const dvec3& a, const dvec3& b) {
-    return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
 }
 
 const dvec3& normalOf(const DisplacedFrame& frame, NormalKind kind) {

@@ -84,7 +84,7 @@ struct RenderOptions : TriangleOptions {
     Material material;
     Bounds bounds; ///< of the object: what the shadow map covers
     std::vector<Layer> layers;
-    double unit = 1; ///< cage units per unit of the model: layers tell depths and heights in cage units
+    double unit = 1; ///< cage units per unit of the model: layers hold depths and heights in cage units
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
     bool countsPipeline = false;
     std::optional<std::uint32_t> meshTrianglesInFlight; ///< see DeviceTraits; default what suits the device

@@ -171,10 +171,6 @@ bool isAskedForByEnvironment() {
     return value != nullptr ? std::string_view(value) == "1" : RELIEF_VALIDATE_BY_DEFAULT != 0;
 }
 
-} // namespace
-
-namespace {
-
 /// What a person can do about it; drivers and layers say little of memory that they could not get.
 const char* hintFor(VkResult result) {
     switch (result) {

@@ -64,8 +64,9 @@ public:
     Run render(std::vector<std::string> more, bool isCold, nlohmann::json* said = nullptr) const {
         std::vector<std::string> words{bench_.options.program, "render", folder_ / "cage.obj"};
         const HeightMap& map = subject_.height;
+        const double unit = subject_.cage.coordinates.unit; // of the map; the files are in the world's
         for (const auto& [option, value] : {std::pair<const char*, std::string>{"--height", folder_ / "map.exr"},
-                                            {"--scale", fmt::format("{}", map.scale)},
+                                            {"--scale", fmt::format("{}", map.scale * unit)},
                                             {"--mid", fmt::format("{}", map.mid)},
                                             {"--wrap", map.wrap == Wrap::repeat ? "repeat" : "clamp"},
                                             {"--isolation", fmt::format("{}", subject_.surface.isolation)},

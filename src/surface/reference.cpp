@@ -67,6 +67,8 @@ bool hasFiniteSharpnessPast(const Cage& cage, int isolation) {
 
 /// Sine under which tangents count as parallel: OpenSubdiv's own at straight corners are 1.5e-5 off.
 constexpr double kParallel = 1e-4;
+/// Of the square of the longer tangent: below it their product is rounding. Long thin faces have small ones, too.
+constexpr double kVanishing = 1e-9;
 
 bool isCorner(int sideCount, const dvec2& uv) {
     for (int corner = 0; corner < sideCount; ++corner)
@@ -134,7 +136,8 @@ struct ReferenceSurface::Parts {
 };
 
 bool LimitFrame::hasTangentPlane() const {
-    return glm::length(glm::cross(pu, pv)) > kParallel * std::max(glm::dot(pu, pu), glm::dot(pv, pv));
+    const double uu = glm::dot(pu, pu), vv = glm::dot(pv, pv);
+    return glm::length(glm::cross(pu, pv)) > std::max(kParallel * std::sqrt(uu * vv), kVanishing * std::max(uu, vv));
 }
 
 ReferenceSurface::ReferenceSurface(const Cage& cage, const SurfaceOptions& options)
@@ -213,7 +216,7 @@ dvec3 ReferenceSurface::normal(int face, const dvec2& uv) const {
     const double here = largestSquare(limit(face, uv));
     const bool vanishes = here < kParallel * kParallel * largestSquare(limit(face, center));
     const dvec3 product = areaNormal(face, uv);
-    if (!vanishes && glm::length(product) > kParallel * here) return glm::normalize(product);
+    if (!vanishes && glm::length(product) > kVanishing * here) return glm::normalize(product);
     for (const double step : {1e-3, 1e-2, 1e-1, 1.0}) {
         const LimitFrame frame = limit(face, glm::mix(uv, center, step));
         if (frame.hasTangentPlane()) return glm::normalize(glm::cross(frame.pu, frame.pv));
