@@ -57,9 +57,10 @@ RELIEF_SHARED_FUNCTION uint patchSize(uint type) {
 // so p_u x p_v vanishes there. The normal is the limit along the diagonal from the corner into the face: after the step
 // s the product is s (t x d) to first order, where d is the second derivative of p along the diagonal. Around a vertex
 // of two faces both tangents vanish; there t and d are the derivatives along the diagonal of the tangents of the two
-// sides, and the product is s^2 (t x d). The points p + t and p + d (p, t, d by the face's coordinates) follow the
-// control points of the patch, two per such corner in the order of its corners: their rounding is that of points, where
-// differences of control points lose all digits.
+// sides, and the product is s^2 (t x d). Around a vertex of more than 60 faces t and d are two tangents a quarter turn
+// apart, since those of one face nearly coincide. The points p + t and p + d (p, t, d by the face's coordinates) follow
+// the control points of the patch, two per such corner in the order of its corners: their rounding is that of points,
+// where differences of control points lose all digits.
 
 struct Patch {
     uint firstPoint;      // into Surface::patchPoints
@@ -69,7 +70,7 @@ struct Patch {
     uint texFirstPoint;   // into Surface::texPatchPoints
     uint texParam1;       // the face-varying patch's field1 (its boundary mask differs)
     uint texType;         // kPatch...
-    uint straightCorners; // bit c: corner c is straight, or its tangents vanish
+    uint straightCorners; // bit c: corner c is straight or narrow, or its tangents vanish
 };
 
 struct Face {

@@ -9,21 +9,30 @@ class CageSequence : public KeyReader {
 public:
     CageSequence(std::string pattern, std::vector<int> frames, const Cage& cage)
         : pattern_(std::move(pattern)), frames_(std::move(frames)), pointCount_(cage.positions.size()),
-          faceSizes_(cage.faceSizes), corners_(cage.corners), coordinates_(cage.coordinates) {}
+          faceSizes_(cage.faceSizes), corners_(cage.corners) {
+        // A sequence of another cage is refused at once.
+        const Cage first = parse(0, {});
+        Bounds bounds;
+        for (const vec3& p : first.positions) bounds.add(first.coordinates.toWorld(p));
+        coordinates_ = keyCoordinates(cage.coordinates, bounds);
+    }
+
+    [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
 
     [[nodiscard]] std::string name(std::size_t key) const override {
         return fmt::format("{}: frame {}", frameName(pattern_, frames_[key]), frames_[key]);
     }
 
-    std::vector<vec3> read(std::size_t key) override {
-        const std::string path = frameName(pattern_, frames_[key]);
-        Cage cage = parseObj(
-            readFile(path), path, [](const std::string&) {}, coordinates_); // tags mean nothing here
-        checkTopology(cage, name(key));
-        return std::move(cage.positions);
-    }
+    std::vector<vec3> read(std::size_t key) override { return parse(key, coordinates_).positions; }
 
 private:
+    [[nodiscard]] Cage parse(std::size_t key, const std::optional<Coordinates>& coordinates) const {
+        const std::string path = frameName(pattern_, frames_[key]);
+        Cage cage = parseObj(
+            readFile(path), path, [](const std::string&) {}, coordinates); // tags mean nothing here
+        checkTopology(cage, name(key));
+        return cage;
+    }
     void checkTopology(const Cage& cage, const std::string& key) const;
 
     std::string pattern_;
@@ -62,8 +71,8 @@ std::unique_ptr<Animation> readCageSequence(const std::string& pattern, const Ca
     KeyTimes times;
     for (const int frame : frames) times.seconds.push_back(frame / options.fps);
     auto reader = std::make_unique<CageSequence>(pattern, frames, cage);
-    reader->read(0); // a sequence of another cage is told at once
-    return animateKeys(std::move(reader), std::move(times), {options.interpolation, cage.coordinates});
+    const Coordinates coordinates = reader->coordinates();
+    return animateKeys(std::move(reader), std::move(times), {options.interpolation, coordinates});
 }
 
 } // namespace relief

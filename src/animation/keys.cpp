@@ -90,6 +90,15 @@ void checkFinite(const std::vector<vec3>& positions, const std::string& key) {
                      positions[i].z);
 }
 
+Coordinates keyCoordinates(const Coordinates& cage, const Bounds& firstKey) {
+    constexpr double kFar = 64; // of its sizes away a key has lost 6 of the 24 bits of a float
+    const Bounds local{.lower = cage.toLocal(firstKey.lower), .upper = cage.toLocal(firstKey.upper)};
+    Coordinates coordinates = cage;
+    if (glm::length(local.center()) > kFar * local.diagonal())
+        coordinates.origin += cage.unit * coordinatesFor(local).origin;
+    return coordinates;
+}
+
 void checkFps(double fps) {
     if (!(fps >= 1e-3 && fps <= 1e6)) fail(Failure::usage, "{} frames a second; 0.001 to 1000000 are possible", fps);
 }

@@ -27,6 +27,10 @@ struct KeyUse {
     Coordinates coordinates; ///< of the positions that are read
 };
 
+/// The coordinates of keys whose first one has these bounds in the world: the cage's, with an origin nearer to the key
+/// where that lies elsewhere.
+Coordinates keyCoordinates(const Coordinates& cage, const Bounds& firstKey);
+
 /// Keys in use are kept, so that frames in a row read each key once. Throws Failure::input unless all times are finite
 /// and rise.
 std::unique_ptr<Animation> animateKeys(std::unique_ptr<KeyReader> reader, KeyTimes times, const KeyUse& use);

@@ -109,6 +109,15 @@ void checkBodyLength(const CacheFile& file, const CacheBody& body) {
              body.frameCount);
 }
 
+Bounds firstBounds(CacheFile& file, const CacheBody& body) {
+    const std::vector<std::uint32_t> words = file.words(body.offset, 3 * body.pointCount);
+    Bounds bounds;
+    for (std::size_t i = 0; i < words.size(); i += 3)
+        bounds.add(
+            {std::bit_cast<float>(words[i]), std::bit_cast<float>(words[i + 1]), std::bit_cast<float>(words[i + 2])});
+    return bounds;
+}
+
 std::unique_ptr<Animation> readPc2(const std::string& path, const Cage& cage, const CacheOptions& options) {
     CacheFile file(path, kPc2Order);
     const std::string magic = file.bytes(0, std::min<std::size_t>(file.size(), kPc2Magic.size()));
@@ -131,17 +140,18 @@ std::unique_ptr<Animation> readPc2(const std::string& path, const Cage& cage, co
              kLeastRate, kMostRate, kCountFrames);
     checkFrameCount(path, sampleCount);
     // Where its samples are, and when.
-    const CacheBody body{.offset = kPc2HeaderBytes,
-                         .pointCount = pointCount,
-                         .frameCount = sampleCount,
-                         .coordinates = cage.coordinates};
+    CacheBody body{.offset = kPc2HeaderBytes,
+                   .pointCount = pointCount,
+                   .frameCount = sampleCount,
+                   .coordinates = cage.coordinates};
     checkBodyLength(file, body);
+    body.coordinates = keyCoordinates(cage.coordinates, firstBounds(file, body));
 
     const double first = options.countsFrames ? 0 : start, step = options.countsFrames ? 1 : rate;
     KeyTimes times{.seconds = {}, .remedy = kCountFrames};
     for (std::size_t i = 0; i < sampleCount; ++i) times.seconds.push_back((first + double(i) * step) / options.fps);
     auto reader = std::make_unique<CacheReader>(std::move(file), body, first, step);
-    return animateKeys(std::move(reader), std::move(times), {options.interpolation, cage.coordinates});
+    return animateKeys(std::move(reader), std::move(times), {options.interpolation, body.coordinates});
 }
 
 std::unique_ptr<Animation> readMdd(const std::string& path, const Cage& cage, const CacheOptions& options) {
@@ -151,11 +161,12 @@ std::unique_ptr<Animation> readMdd(const std::string& path, const Cage& cage, co
     const std::uint32_t frameCount = words[0], pointCount = words[1];
     checkPointCount(path, pointCount, cage.positions.size());
     checkFrameCount(path, frameCount);
-    const CacheBody body{.offset = 8 + 4ull * frameCount,
-                         .pointCount = pointCount,
-                         .frameCount = frameCount,
-                         .coordinates = cage.coordinates};
+    CacheBody body{.offset = 8 + 4ull * frameCount,
+                   .pointCount = pointCount,
+                   .frameCount = frameCount,
+                   .coordinates = cage.coordinates};
     checkBodyLength(file, body);
+    body.coordinates = keyCoordinates(cage.coordinates, firstBounds(file, body));
 
     KeyTimes times{.seconds = {}, .areFloats = !options.countsFrames, .remedy = kCountFrames};
     times.seconds.reserve(frameCount);
@@ -163,7 +174,7 @@ std::unique_ptr<Animation> readMdd(const std::string& path, const Cage& cage, co
         times.seconds.push_back(options.countsFrames ? double(times.seconds.size()) / options.fps
                                                      : std::bit_cast<float>(word));
     auto reader = std::make_unique<CacheReader>(std::move(file), body, 0, 1);
-    return animateKeys(std::move(reader), std::move(times), {options.interpolation, cage.coordinates});
+    return animateKeys(std::move(reader), std::move(times), {options.interpolation, body.coordinates});
 }
 
 std::unique_ptr<Animation> readByName(const std::string& path, const Cage& cage, const CacheOptions& options) {
@@ -177,9 +188,8 @@ std::unique_ptr<Animation> readByName(const std::string& path, const Cage& cage,
 
 } // namespace
 
-void warnOfCoarseFloats(const std::string& path, const Cage& cage, const Warn& warn) {
+void warnOfCoarseFloats(const std::string& path, const Cage& cage, const dvec3& origin, const Warn& warn) {
     constexpr double kCoarse = 1e-5; // of the cage's size: from there on it can be seen
-    const dvec3& origin = cage.coordinates.origin;
     const double size = summarize(cage).bounds.diagonal(), spacing = floatSpacing(origin);
     if (origin == dvec3(0) || spacing <= kCoarse * size) return;
     warn(fmt::format("{}: the 32-bit floats of a point cache are {:.2g} units apart so far from the origin, and the "
@@ -193,7 +203,7 @@ std::unique_ptr<Animation> readPointCache(const std::string& path, const Cage& c
     auto animation = readByName(path, cage, options);
     const dvec2 range = animation->keyRange();
     if (range.x == range.y) warn(fmt::format("{}: there is only one frame, so nothing moves", path));
-    if (!isFramePattern(path)) warnOfCoarseFloats(path, cage, warn);
+    if (!isFramePattern(path)) warnOfCoarseFloats(path, cage, animation->coordinates().origin, warn);
     return animation;
 }
 

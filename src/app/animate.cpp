@@ -300,7 +300,7 @@ void writeCache(const AnimateArgs& args, Report& report) {
         if (frames[i] != frames[0] + int(i))
             fail(Failure::usage, "{}: a point cache has every frame of a range; --frames {} leaves some out",
                  args.target, args.frames);
-    warnOfCoarseFloats(args.target, cage, args.output.warn());
+    warnOfCoarseFloats(args.target, cage, animation->coordinates().origin, args.output.warn());
     const CacheHeader header{std::uint32_t(cage.positions.size()), std::uint32_t(frames.size()), double(frames[0]),
                              pose.fps};
     writePointCache(args.target, header, [&](std::uint32_t k) {

@@ -33,7 +33,12 @@ std::optional<ChannelPlace> findChannel(const ImageInfo& info, std::string_view 
     int number = -1;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     const bool isNumber = error == std::errc() && end == word.data() + word.size();
-    if (isNumber && number >= 0 && number < info.channels) return ChannelPlace{0, number};
+    if (!isNumber || number < 0) return {};
+    for (std::size_t p = 0; p < info.parts.size(); ++p) { // numbers count through all parts
+        const int count = int(info.parts[p].channelNames.size());
+        if (number < count) return ChannelPlace{int(p), number};
+        number -= count;
+    }
     return {};
 }
 

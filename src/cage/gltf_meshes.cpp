@@ -6,11 +6,17 @@
 namespace relief {
 namespace {
 
+/// Absent attributes are as good as none.
+GltfElement attributesOf(const GltfElement& primitive) {
+    static const nlohmann::json kNone = nlohmann::json::object();
+    if (const std::optional<GltfElement> attributes = primitive.object("attributes")) return *attributes;
+    return {kNone, primitive.path(), primitive.place() + "/attributes"};
+}
+
 class PrimitiveReader {
 public:
     PrimitiveReader(const GltfElement& from, GltfMeshReading& reading)
-        : from_(from), attributes_(*from.need("attributes").object("attributes")), reading_(reading),
-          accessors_(reading.accessors) {}
+        : from_(from), attributes_(attributesOf(from)), reading_(reading), accessors_(reading.accessors) {}
 
     /// Without vertices and triangles where it makes no surface.
     GltfPrimitive read(std::uint32_t targetCount);

@@ -112,7 +112,7 @@ std::vector<SampleQuery> cornersOf(const Surface& surface);
 /// The device's limit normals in corners of faces against the reference's beside them. In the corner itself device and
 /// reference could share a mistake: p_u and p_v may be parallel there.
 struct CornerReport {
-    std::uint64_t count = 0;
+    std::uint64_t count = 0; ///< without corners of less than 6 degrees: a surface is nearly a cone at vertices of many faces
     /// Degrees from the normal 1/1024 of the face away along the diagonal, less what the normal turns in as much again.
     double max = 0;
     SurfacePlace worst;

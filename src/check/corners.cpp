@@ -23,6 +23,12 @@ double turnAtCorner(const ReferenceSurface& reference, const SampleQuery& corner
     return std::isnan(turn) ? std::numeric_limits<double>::infinity() : turn;
 }
 
+/// p_u and p_v point nearly the same way, not the opposite one as in straight corners.
+bool isNarrow(const LimitFrame& frame) {
+    const double lengths = glm::length(frame.pu) * glm::length(frame.pv);
+    return glm::length(glm::cross(frame.pu, frame.pv)) < 0.1 * lengths && frame.hasTangentPlane();
+}
+
 } // namespace
 
 std::vector<SampleQuery> cornersOf(const Surface& surface) {
@@ -37,8 +43,10 @@ std::vector<SampleQuery> cornersOf(const Surface& surface) {
 
 CornerReport reportCorners(const ReferenceSurface& reference, std::span<const SampleQuery> queries,
                            std::span<const SampleResult> results) {
-    CornerReport report{.count = queries.size()};
+    CornerReport report;
     for (std::size_t i = 0; i < queries.size(); ++i) {
+        if (isNarrow(reference.limit(int(queries[i].face), dvec2(queries[i].uv)))) continue;
+        ++report.count;
         const double turn = turnAtCorner(reference, queries[i], dvec3(results[i].n));
         if (turn <= report.max) continue;
         report.max = turn;

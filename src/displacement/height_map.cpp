@@ -81,7 +81,7 @@ ChannelPlace chooseChannel(const ImageInfo& info, const std::string& path, const
     for (const ImagePart& part : info.parts)
         for (const std::string& name : part.channelNames)
             names.push_back(info.parts.size() > 1 ? part.name + "." + name : name);
-    fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist: {}", path, word, info.channels - 1,
+    fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist: {}", path, word, names.size() - 1,
          listOf(names));
 }
 

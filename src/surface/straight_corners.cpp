@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "surface/gregory.h"
 #include "surface/rows.h"
@@ -49,7 +50,16 @@ constexpr double kStraightCosine = -1 + 1e-7;
 /// Of the weights of a tangent, for a patch as large as the face; a patch of half the size has half as much.
 constexpr double kVanishingTangent = 1e-3;
 
-enum class CornerKind { plain, straight, vanishing };
+/// A face takes less than 6 degrees around a vertex of more than 60 faces: the cross product of its own tangents would
+/// magnify their rounding tenfold and more.
+constexpr double kNarrowCosine = 0.9945;
+
+enum class CornerKind { plain, straight, vanishing, narrow };
+
+/// Two points around a vertex whose directions from it are nearly perpendicular, the second counter-clockwise.
+struct Axes {
+    std::uint32_t first = 0, second = 0;
+};
 
 /// Of a corner of a face: its (u,v), and the directions along its two sides into the face, by (u,v).
 struct CornerDirections {
@@ -62,12 +72,22 @@ CornerDirections directionsAt(int sideCount, int corner) {
     return {uv, sidePoint(sideCount, corner, 1) - uv, sidePoint(sideCount, before, 0) - uv};
 }
 
+/// Other corners of a patch lie inside the face, where its tangents may be anything.
+bool isFaceCorner(const Patch& patch, int sideCount, int corner) {
+    const Far::PatchParam param{patch.param0, patch.param1};
+    const dvec2 at(param.GetU(), param.GetV());
+    const double last = std::ldexp(1.0, depthInFace(param)) - 1;
+    if (sideCount == 3 && param.IsTriangleRotated()) return false;
+    return at == last * sidePoint(sideCount, corner, 0);
+}
+
 class StraightCornerBuilder {
 public:
     StraightCornerBuilder(Surface& surface, RowTable& rows)
         : surface_(surface), rows_(rows), angles_(rows.namedCount()) {}
 
     void build() {
+        findAxes();
         std::vector<std::uint32_t> points;
         points.reserve(surface_.patchPoints.size());
         for (Patch& patch : surface_.patches) {
@@ -77,7 +97,10 @@ public:
             if (patch.type != kPatchGregory && patch.type != kPatchGregoryTriangle) continue;
             for (int corner = 0; corner < surface_.sideCount; ++corner) {
                 const CornerKind kind = kindOf(patch, net, corner);
-                if (kind != CornerKind::plain) addCorner(patch, net, corner, kind, points);
+                if (kind == CornerKind::narrow)
+                    addNarrowCorner(patch, corner, axes_.at(net[5 * std::size_t(corner)]), points);
+                else if (kind != CornerKind::plain)
+                    addCorner(patch, net, corner, kind, points);
             }
         }
         surface_.patchPoints = std::move(points);
@@ -88,10 +111,46 @@ private:
 
     /// Five points belong to each corner: itself, one along each of its sides, and two inside.
     [[nodiscard]] CornerKind kindOf(const Patch& patch, const Net& net, int corner) {
+        if (!isFaceCorner(patch, surface_.sideCount, corner)) return CornerKind::plain;
         const std::uint32_t* points = &net[5 * std::size_t(corner)];
         const RowAngles::Angle angle = angles_.measure(rows_, points[0], points[1], points[2]);
         if (angle.length * magnification(patch) < kVanishingTangent) return CornerKind::vanishing;
+        if (angle.cosine > kNarrowCosine) return CornerKind::narrow;
         return angle.cosine < kStraightCosine ? CornerKind::straight : CornerKind::plain;
+    }
+
+    /// Tangents around a vertex are t1 cos a + t2 sin a with equally long t1 and t2 that share no weight: angles
+    /// between their weights are those between them.
+    void findAxes() {
+        std::map<std::uint32_t, std::vector<Axes>> corners; // by vertex: the two tangents' points of each narrow corner
+        for (const Patch& patch : surface_.patches) {
+            if (patch.type != kPatchGregory && patch.type != kPatchGregoryTriangle) continue;
+            const auto net = std::span(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
+            for (int corner = 0; corner < surface_.sideCount; ++corner) {
+                const std::uint32_t* p = &net[5 * std::size_t(corner)];
+                if (kindOf(patch, net, corner) == CornerKind::narrow) corners[p[0]].push_back({p[1], p[2]});
+            }
+        }
+        for (const auto& [vertex, around] : corners) axes_[vertex] = axesOf(vertex, around);
+    }
+
+    [[nodiscard]] Axes axesOf(std::uint32_t vertex, const std::vector<Axes>& around) {
+        const auto cosine = [&](std::uint32_t a, std::uint32_t b) {
+            return angles_.measure(rows_, vertex, a, b).cosine;
+        };
+        const auto [first, after] = around.front();
+        std::uint32_t second = after;
+        double best = 1;
+        for (const Axes& other : around)
+            if (const double c = cosine(first, other.first); std::abs(c) < best)
+                best = std::abs(c), second = other.first;
+        const bool isLeft = cosine(second, after) > cosine(first, after) * cosine(first, second);
+        return isLeft ? Axes{first, second} : Axes{second, first};
+    }
+
+    static void addNarrowCorner(Patch& patch, int corner, const Axes& axes, std::vector<std::uint32_t>& points) {
+        patch.straightCorners |= 1u << corner;
+        points.insert(points.end(), {axes.first, axes.second});
     }
 
     static double magnification(const Patch& patch) {
@@ -125,6 +184,7 @@ private:
     Surface& surface_;
     RowTable& rows_;
     RowAngles angles_;
+    std::map<std::uint32_t, Axes> axes_; ///< by the point of a vertex with narrow corners
 };
 
 } // namespace

@@ -59,8 +59,12 @@ TEST(FarCache, warnsOnceThatItsFloatsAreCoarse) {
     const Warn warn = [&](const std::string& line) { warnings.push_back(line); };
     readPointCache(folder / "a.pc2", torusWithSeams(), {}, warn);
     readPointCache(folder / "a.pc2", movedTo(dvec3(30, 0, 0)), {}, warn);
+    readPointCache(folder / "a.pc2", movedTo(kUtm), {}, warn); // the poses lie at hand
     EXPECT_TRUE(warnings.empty());
-    readPointCache(folder / "a.pc2", movedTo(kUtm), {}, warn);
+    std::vector<vec3> away;
+    for (const dvec3& p : movedBy(kUtm, torusWithSeams().positions)) away.emplace_back(p);
+    writePointCache(folder / "b.pc2", {std::uint32_t(away.size()), 2}, [&](std::uint32_t) { return away; });
+    readPointCache(folder / "b.pc2", torusWithSeams(), {}, warn);
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("0.25 units apart"), std::string::npos) << warnings[0];
 }
@@ -75,6 +79,19 @@ TEST(FarSequence, isReadInDoublePrecision) {
     const auto animation = readQuietly(folder / "a.{frame}.obj", cage);
     expectInTheWorld(animation->pose(2 / 24.0).positions, animation->coordinates(),
                      movedBy(kUtm + dvec3(200, 0, 0), torusWithSeams().positions), 5e-5);
+}
+
+// Whether the cage or its sequence is far away: poses are in coordinates of their own.
+TEST(FarSequence, isExactHoweverFarFromItsCage) {
+    const TemporaryFolder folder;
+    for (const auto& [cageAt, keysAt] :
+         {std::pair{dvec3(0), kUtm}, std::pair{kUtm, dvec3(0)}, std::pair{kAway, kUtm}}) {
+        for (int frame = 1; frame <= 2; ++frame)
+            writeObj(folder / fmt::format("a.{}.obj", frame), movedTo(keysAt + dvec3(0.5 * frame, 0, 0)));
+        const auto animation = readQuietly(folder / "a.{frame}.obj", movedTo(cageAt));
+        expectInTheWorld(animation->pose(2 / 24.0).positions, animation->coordinates(),
+                         movedBy(keysAt + dvec3(1, 0, 0), torusWithSeams().positions), 1e-6);
+    }
 }
 
 TEST(FarDeformers, doWhatTheyDoNearby) {

@@ -142,8 +142,8 @@ TEST_F(OddCages, thatAreUnweldedAreWarnedOfUntilTheyAreWelded) {
         EXPECT_EQ(welded.exitCode, 0) << welded.err;
         EXPECT_EQ(warningCount(welded, "vertices"), 0u) << welded.err;
     }
-    for (const auto& path : jsonOf(with(verbs()[2], {"--weld", "--json"})).at("paths"))
-        EXPECT_EQ(path.at("boundary_segments"), 0);
+    const nlohmann::json certificate = jsonOf(with(verbs()[2], {"--weld", "--json"}));
+    for (const nlohmann::json& path : certificate.at("paths")) EXPECT_EQ(path.at("boundary_segments"), 0);
 }
 
 TEST_F(OddCages, tellHowManyOfTheirVerticesCoincide) {

@@ -67,7 +67,7 @@ TEST(GltfErrors, membersOfWrongTypes) {
 TEST(GltfErrors, membersThatAreMissing) {
     expectGltfRefused([](GltfFile& f) { f.json.erase("asset"); }, {"no asset"});
     expectGltfRefused([](GltfFile& f) { f.json["meshes"][0].erase("primitives"); }, {"meshes/0: has no primitives"});
-    expectGltfRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0].erase("attributes"); }, {"no attributes"});
+    expectGltfRefused([](GltfFile& f) { f.json["meshes"][0]["primitives"][0].erase("attributes"); }, {"no triangles"});
     expectGltfRefused([](GltfFile& f) { f.attributes().erase("POSITION"); }, {"no triangles"});
     expectGltfRefused([](GltfFile& f) { f.json["accessors"][0].erase("type"); }, {"accessors/0 has no type"});
     expectGltfRefused([](GltfFile& f) { f.json["accessors"][0].erase("bufferView"); }, {"POSITION", "no buffer view"});

@@ -26,6 +26,18 @@ TEST(Corners, ofExactNormalsTurnLittle) {
     }
 }
 
+// Parallel is an angle: tangents of very different lengths span a plane all the same.
+TEST(Corners, ofLongThinFacesHaveATangentPlane) {
+    Cage cage = boundaryGrid(3, 3);
+    for (vec3& p : cage.positions) p.x *= 30'000;
+    const ReferenceSurface reference(cage, {});
+    const std::vector<SampleQuery> corners = cornersOf(buildSurface(cage, {}));
+    for (const SampleQuery& corner : corners)
+        EXPECT_NEAR(reference.normal(int(corner.face), dvec2(corner.uv)).y, 1, 1e-9) << "face " << corner.face;
+    EXPECT_TRUE(reference.limit(4, dvec2(0.5)).hasTangentPlane());
+    EXPECT_LT(reportCorners(reference, corners, exactNormals(reference, corners)).max, 1e-3);
+}
+
 TEST(Corners, whoseNormalFlipsAreFound) {
     const Cage cage = hillyGrid();
     const ReferenceSurface reference(cage, {});
