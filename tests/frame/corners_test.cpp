@@ -77,6 +77,11 @@ TEST_F(StraightCorners, ofTwoFacesAroundAVertexHaveTheReferencesNormals) {
     EXPECT_LT(worstCornerNormal(cage, {}), 0.5);
 }
 
+// In the middle of a cap of 1000 corners the tangents of one face are a third of a degree apart.
+TEST_F(StraightCorners, ofManyFacesAroundAVertexHaveTheReferencesNormals) {
+    EXPECT_LT(worstCornerNormal(nGonPrism(1000), {}), 1);
+}
+
 // Where a face is a hundredth of the object, differences of its corner's rounded control points would be noise.
 TEST_F(StraightCorners, areAsExactOnSmallFaces) { EXPECT_LT(worstCornerNormal(roughGrid(100, 100, 5), {}), 0.5); }
 

@@ -1,6 +1,7 @@
 // Corners whose two sides continue each other: p_u and p_v are parallel there, and the normal is a limit.
 #include <bit>
 #include <random>
+#include <set>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
@@ -99,6 +100,20 @@ TEST(StraightCorners, areFoundWhateverThePositions) {
             const Cage sharp = withBoundary(grid, BoundaryRule::edgeAndCorner);
             EXPECT_EQ(straightCornerCount(buildSurface(sharp, {.isolation = isolation})), 0) << isolation;
         }
+}
+
+// Their faces take less than 6 degrees each; all of a vertex take the same two tangents.
+TEST(NarrowCorners, areThoseOfMoreThanSixtyFaces) {
+    EXPECT_EQ(straightCornerCount(buildSurface(prism(40), {})), 0);
+    EXPECT_EQ(straightCornerCount(buildSurface(prism(80), {})), 2 * 80);
+    const Surface surface = buildSurface(prism(80), {});
+    std::set<std::pair<std::uint32_t, std::uint32_t>> axes;
+    for (const Patch& patch : surface.patches)
+        if (patch.straightCorners != 0) {
+            const std::uint32_t* points = &surface.patchPoints[patch.firstPoint + patchSize(patch.type)];
+            axes.insert({points[0], points[1]});
+        }
+    EXPECT_EQ(axes.size(), 2u);
 }
 
 /// Two quads around a vertex in the middle of a sheet: it has two faces and two edges.
