@@ -48,7 +48,7 @@ private:
 /// OpenSubdiv's own tangents at straight corners are 1.5e-5 off parallel.
 constexpr double kStraightCosine = -1 + 1e-7;
 /// Of the weights of a tangent, for a patch as large as the face; a patch of half the size has half as much.
-constexpr double kVanishingTangent = 1e-3;
+constexpr double kVanishingTangent = 1e-3, kNoTangent = 1e-5;
 
 /// A face takes less than 6 degrees around a vertex of more than 60 faces: the cross product of its own tangents would
 /// magnify their rounding tenfold and more.
@@ -114,8 +114,10 @@ private:
         if (!isFaceCorner(patch, surface_.sideCount, corner)) return CornerKind::plain;
         const std::uint32_t* points = &net[5 * std::size_t(corner)];
         const RowAngles::Angle angle = angles_.measure(rows_, points[0], points[1], points[2]);
-        if (angle.length * magnification(patch) < kVanishingTangent) return CornerKind::vanishing;
-        if (angle.cosine > kNarrowCosine) return CornerKind::narrow;
+        const double length = angle.length * magnification(patch);
+        // Tangents around many faces are short too, but they point somewhere.
+        if (length > kNoTangent && angle.cosine > kNarrowCosine) return CornerKind::narrow;
+        if (length < kVanishingTangent) return CornerKind::vanishing;
         return angle.cosine < kStraightCosine ? CornerKind::straight : CornerKind::plain;
     }
 
