@@ -211,15 +211,18 @@ dvec3 ReferenceSurface::areaNormal(int face, const dvec2& uv) const {
 }
 
 dvec3 ReferenceSurface::normal(int face, const dvec2& uv) const {
+    const LimitFrame frame = limit(face, uv);
+    if (frame.hasTangentPlane() && !isCorner(parts_->sideCount, uv))
+        return glm::normalize(glm::cross(frame.pu, frame.pv));
     const auto largestSquare = [](const LimitFrame& f) { return std::max(glm::dot(f.pu, f.pu), glm::dot(f.pv, f.pv)); };
     const dvec2 center(parts_->sideCount == 4 ? 1.0 / 2 : 1.0 / 3);
-    const double here = largestSquare(limit(face, uv));
+    const double here = largestSquare(frame);
     const bool vanishes = here < kParallel * kParallel * largestSquare(limit(face, center));
     const dvec3 product = areaNormal(face, uv);
     if (!vanishes && glm::length(product) > kVanishing * here) return glm::normalize(product);
     for (const double step : {1e-3, 1e-2, 1e-1, 1.0}) {
-        const LimitFrame frame = limit(face, glm::mix(uv, center, step));
-        if (frame.hasTangentPlane()) return glm::normalize(glm::cross(frame.pu, frame.pv));
+        const LimitFrame inside = limit(face, glm::mix(uv, center, step));
+        if (inside.hasTangentPlane()) return glm::normalize(glm::cross(inside.pu, inside.pv));
     }
     return {0, 0, 1}; // the face has no area: any direction is as good
 }
