@@ -1,4 +1,4 @@
-// Straight corners of faces, whose tangents along both sides are opposite (see shared/surface.h).
+// Corners of faces whose own tangents span no plane, or hardly one (see shared/surface.h).
 #ifndef RELIEF_CORNERS_GLSL
 #define RELIEF_CORNERS_GLSL
 
@@ -17,7 +17,7 @@ uint cornerAt(vec2 uv) {
 #endif
 }
 
-// What p_u x p_v becomes along the diagonal of a straight corner, t x d; zero at all other points.
+// The direction of p_u x p_v beside such a corner, t x d; zero at all other points.
 vec3 straightCornerNormal(NetPair nets, vec2 uv) {
     uint corner = cornerAt(uv), bit = 1u << corner;
     if ((nets.straightCorners & bit) == 0u) return vec3(0);

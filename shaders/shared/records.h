@@ -15,8 +15,8 @@
 //
 // Touches are counted from the first one. `count` is how many touches the edge has, in its first; at a corner it is
 // Surface::sectorFaces of the touch. The nets of a patch are the texel where the numbers of its control points begin,
-// less its base, eight 16-bit numbers a texel; those of its texture coordinates follow after `texels` texels. Where the
-// points of a patch are too far apart for 16 bits all patches have a base of 0 and four 32-bit numbers a texel
+// less its base, eight 16-bit numbers per texel; those of its texture coordinates follow after `texels` texels. Where the
+// points of a patch are too far apart for 16 bits all patches have a base of 0 and four 32-bit numbers per texel
 // (kHasWideNets).
 #ifndef RELIEF_SHARED_RECORDS_H
 #define RELIEF_SHARED_RECORDS_H
