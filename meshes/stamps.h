@@ -46,7 +46,7 @@ private:
     }
     double cell_, reach_;
     std::vector<Stamp> stamps_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; ///< every stamp in each cell that it reaches
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; ///< every stamp in each cell that it heightBounds
 };
 
 inline void Stamps::add(const Stamp& stamp) {

@@ -18,12 +18,12 @@ uint cornerAt(vec2 uv) {
 }
 
 // The direction of p_u x p_v beside such a corner, t x d; zero at all other points.
-vec3 straightCornerNormal(NetPair nets, vec2 uv) {
+vec3 straightCornerNormal(PatchPoints patchPoints, vec2 uv) {
     uint corner = cornerAt(uv), bit = 1u << corner;
-    if ((nets.straightCorners & bit) == 0u) return vec3(0);
-    uint first = patchSize(nets.points.type) + 2u * bitCount(nets.straightCorners & (bit - 1u));
-    vec3 p = pointAt(netPoint(nets.points, 5u * corner));
-    precise vec3 t = pointAt(netPoint(nets.points, first)) - p, d = pointAt(netPoint(nets.points, first + 1u)) - p;
+    if ((patchPoints.straightCorners & bit) == 0u) return vec3(0);
+    uint first = patchSize(patchPoints.surface.type) + 2u * bitCount(patchPoints.straightCorners & (bit - 1u));
+    vec3 p = pointAt(pointIndex(patchPoints.surface, 5u * corner));
+    precise vec3 t = pointAt(pointIndex(patchPoints.surface, first)) - p, d = pointAt(pointIndex(patchPoints.surface, first + 1u)) - p;
     precise vec3 normal = cross(t, d);
     return dot(normal, normal) > kParallel * kParallel * dot(t, t) * dot(d, d) ? normal : vec3(0);
 }

@@ -15,7 +15,7 @@ uint firstVertexOf(uint run) { return texelFetch(diceFirsts, int(run)).x; }
 
 VertexRun fetchRun(uint i) {
     uvec4 a = tableTexel(kRunTexels * i), b = tableTexel(kRunTexels * i + 1u);
-    return VertexRun(touchOf(a), b.x, b.y);
+    return VertexRun(unpackIncidence(a), b.x, b.y);
 }
 
 FaceRuns fetchFaceRuns(uint face) {

@@ -23,13 +23,13 @@ void main() {
     if (vertex >= passNumber) return;
     uint index = runOf(vertex);
     VertexRun run = fetchRun(index);
-    Place place;
+    SampleLocation location;
     if (run.isCorner != 0u) {
-        place = cornerPlace(run.place);
+        location = cornerLocation(run.element);
     } else {
-        float rate = edgeRate(run.place);
-        place = edgePlace(run.place, vertex - firstVertexOf(index) + 1u, segmentsOf(rate, scene.isFractional), rate);
+        float rate = edgeRate(run.element);
+        location = edgeLocation(run.element, vertex - firstVertexOf(index) + 1u, segmentsOf(rate, scene.isFractional), rate);
     }
-    DisplacedSample s = displaced(run.touch.face, touchPoint(run.touch, place.t), place);
+    DisplacedSample s = displaced(run.incidence.face, incidencePoint(run.incidence, location.t), location);
     storeVertex(vertex, s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
 }

@@ -42,7 +42,7 @@ void main() {
         uvec2 ij = first + divided(k, size.x).yx;
         if (ij.x + ij.y >= n) continue;
         vec2 uv = insidePoint(tile, ij);
-        DisplacedSample s = displaced(tile.face, uv, insidePlace(tile.face, uv));
+        DisplacedSample s = displaced(tile.face, uv, insideLocation(tile.face, uv));
         storeVertex(tile.firstVertex + insideIndex(ij, n), s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
     }
 }
@@ -51,16 +51,16 @@ void main() {
 
 void main() {
     InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
-    NetPair nets = fetchPatch(tile.patchIndex);
-    if (kIsCommon) nets.points.type = nets.texPoints.type = kPatchRegular;
-    loadTile(nets);
+    PatchPoints patchPoints = fetchPatch(tile.patchIndex);
+    if (kIsCommon) patchPoints.surface.type = patchPoints.texture.type = kPatchRegular;
+    loadTile(patchPoints);
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     float scale = float(1u << tile.depth);
     vec2 origin = vec2(halvesOf(tile.origin));
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
         uvec2 ij = first + divided(k, size.x).yx;
         vec2 uv = insidePoint(tile, ij);
-        DisplacedSample s = displacedInLeaf(nets, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
+        DisplacedSample s = displacedInLeaf(patchPoints, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
                                              faceLevel(tile.face, uv));
         uint row = halvesOf(tile.segments).x - 1u;
         storeVertex(tile.firstVertex + (ij.y - 1u) * row + ij.x - 1u, s.q, s.h, s.normal, s.st,

@@ -12,19 +12,19 @@ void main() {} // all runs are dice_edges.comp's
 #include "dice_tile.glsl"
 
 void main() {
-    uint index = passFirst + gl_WorkGroupID.x, edge = fetchRun(index).place;
+    uint index = passFirst + gl_WorkGroupID.x, edge = fetchRun(index).element;
     Edge record = fetchEdge(edge);
     uint patchIndex = faceRoot(record.owner.face) & ~kLeafBit;
-    NetPair nets = fetchPatch(patchIndex);
-    nets.points.type = nets.texPoints.type = kPatchRegular;
-    loadTile(nets);
+    PatchPoints patchPoints = fetchPatch(patchIndex);
+    patchPoints.surface.type = patchPoints.texture.type = kPatchRegular;
+    loadTile(patchPoints);
     float rate = edgeRate(edge);
     uint n = segmentsOf(rate, scene.isFractional), firstVertex = firstVertexOf(index);
     float low = cornerLevel(record.corners[0]), high = cornerLevel(record.corners[1]);
     for (uint k = 1u + gl_LocalInvocationID.x; k < n; k += gl_WorkGroupSize.x) {
         float t = sampleParameter(k, n, rate);
-        vec2 uv = touchPoint(record.owner, t);
-        DisplacedSample s = displacedInLeaf(nets, Leaf(patchIndex, uv, 1.0), uv, mix(low, high, t));
+        vec2 uv = incidencePoint(record.owner, t);
+        DisplacedSample s = displacedInLeaf(patchPoints, Leaf(patchIndex, uv, 1.0), uv, mix(low, high, t));
         storeVertex(firstVertex + k - 1u, s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
     }
 }

@@ -16,8 +16,8 @@ vec3 ownRestPoints[kMostPoints];
 vec3 tilePoint(uint i) { return kStretches && pose == scene.pointsRest ? ownRestPoints[i] : ownPoints[i]; }
 vec2 tileTexPoint(uint i) { return ownTexPoints[i]; }
 uvec4 tileRow(uint row) { return 4u * row + uvec4(0, 1, 2, 3); }
-#define RELIEF_NET_ROW(net, row) tileRow(row)
-#define RELIEF_NET_POINT(net, k) (k)
+#define RELIEF_POINT_ROW(points, row) tileRow(row)
+#define RELIEF_POINT_INDEX(points, k) (k)
 #define RELIEF_POINT tilePoint
 #define RELIEF_TEX_POINT tileTexPoint
 #define RELIEF_UNROLL [[unroll]] // constant places in the arrays
@@ -30,14 +30,14 @@ vec3 restPoint(uint i) {
     return p;
 }
 
-void loadTile(NetPair nets) {
+void loadTile(PatchPoints patchPoints) {
     for (uint k = gl_LocalInvocationID.x; k < kMostPoints; k += gl_WorkGroupSize.x) {
-        if (k < patchSize(nets.points.type)) {
-            uint i = netPoint(nets.points, k);
+        if (k < patchSize(patchPoints.surface.type)) {
+            uint i = pointIndex(patchPoints.surface, k);
             sharedPoints[k] = pointAt(i);
             if (kStretches) sharedRestPoints[k] = restPoint(i);
         }
-        if (kHasTexCoords && k < patchSize(nets.texPoints.type)) sharedTexPoints[k] = texPointAt(netPoint(nets.texPoints, k));
+        if (kHasTexCoords && k < patchSize(patchPoints.texture.type)) sharedTexPoints[k] = texPointAt(pointIndex(patchPoints.texture, k));
     }
     barrier();
     // Here, outside all branches, where a load with a constant address is one load for all lanes.

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "dice.glsl"
-#include "places.glsl"
+#include "locations.glsl"
 
 // The triangles between the samples, a workgroup a tile. Each side is a ring of triangles that joins the r segments of the edge
 // to the segments of the inner samples beside it, as the fixed-function tessellator does; within are cells.

@@ -4,7 +4,7 @@
 
 #include "corners.glsl"
 #include "heights.glsl"
-#include "places.glsl"
+#include "locations.glsl"
 #include "shared/displacement.h"
 
 layout(constant_id = 1) const bool kHasTexCoords = false; // else a face's own (u,v) stand in for them
@@ -92,11 +92,11 @@ vec2 ownTexCoords(uint face, vec2 uv) {
 
 // p_u x p_v, or what stands for it where it vanishes: at straight corners its derivative along the diagonal; elsewhere p_u and
 // p_v are repaired.
-vec3 areaNormal(inout LimitFrame f, NetPair nets, Leaf leaf, vec2 uv, out bool isStraight) {
+vec3 areaNormal(inout LimitFrame f, PatchPoints patchPoints, Leaf leaf, vec2 uv, out bool isStraight) {
     isStraight = false;
 #ifdef RELIEF_MEETS_CORNERS
     if (kHasStraightCorners) {
-        vec3 straight = straightCornerNormal(nets, leaf.uv);
+        vec3 straight = straightCornerNormal(patchPoints, leaf.uv);
         isStraight = straight != vec3(0);
         if (isStraight) return straight;
     }
@@ -120,7 +120,7 @@ void addStretch(inout SurfacePoint point, LimitFrame rest, vec3 restNormal) {
     point.logStretch = 0.5 * (areaSlope / point.area - restSlope / restArea);
 }
 
-SurfacePoint surfacePoint(NetPair nets, Leaf leaf, vec2 uv, bool wantsTexture) {
+SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
     SurfacePoint point;
     point.tex = TexFrame(uv, mat2(1.0));
     point.stretch = 1.0;
@@ -134,17 +134,17 @@ SurfacePoint surfacePoint(NetPair nets, Leaf leaf, vec2 uv, bool wantsTexture) {
     for (uint kind = 0u; kind <= restKind; ++kind) {
         bool isTexture = kind > 0u && kind == textureKind;
         if (hasRest && kind == restKind) pose = scene.pointsRest;
-        LimitFrame f = byFace(patchFrame(isTexture, nets, leaf.uv), leaf.scale);
+        LimitFrame f = byFace(patchFrame(isTexture, patchPoints, leaf.uv), leaf.scale);
         if (kind == 0u) point.frame = f;
         else if (isTexture) point.tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
         else {
             rest = f;
             bool isStraight;
-            restNormal = areaNormal(rest, nets, leaf, uv, isStraight);
+            restNormal = areaNormal(rest, patchPoints, leaf, uv, isStraight);
         }
     }
     pose = own;
-    precise vec3 normal = areaNormal(point.frame, nets, leaf, uv, point.isStraight);
+    precise vec3 normal = areaNormal(point.frame, patchPoints, leaf, uv, point.isStraight);
     precise float area = length(normal);
     precise vec3 n = normal / area;
     point.area = area;
@@ -174,32 +174,32 @@ HeightSample heightAt(SurfacePoint point, float level) {
 // Walks the faces that meet at the place, in the edge's fixed order: one of them where the surface is smooth, all where
 // the normal has to be agreed on: of each sector between sharp edges the faces share one vote, so that a direction does not
 // jump from an edge to the corner at its end. The first face is the owner: it gives the point and the height.
-DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
+DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
 #ifdef RELIEF_MUTANT_OWNER // a test of the tests: one edge of sixteen is evaluated at whatever face is drawn
-    Touch o = place.owner;
-    if (!place.isInside && o.start != o.end && (kSideCount * o.face + o.side) % 16u == 0u) place = insidePlace(face, faceUV);
+    Incidence o = location.owner;
+    if (!location.isInside && o.start != o.end && (kSideCount * o.face + o.side) % 16u == 0u) location = insideLocation(face, faceUV);
 #endif
     DisplacedSample s;
     precise vec3 direction = vec3(0);
     vec3 ownersNormal = vec3(0);
-    uint count = max(place.touchCount, 1u);
+    uint count = max(location.incidenceCount, 1u);
     bool isOwn = false;
     for (uint i = 0u; i < count; ++i) {
-        Touch touch = place.owner;
+        Incidence incidence = location.owner;
         float share = 1.0;
-        if (place.touchCount > 0u) {
-            touch = fetchTouch(place.firstTouch + i);
-            if (touch.start == touch.end) share = sectorShare(place.firstTouch + i);
+        if (location.incidenceCount > 0u) {
+            incidence = fetchIncidence(location.firstIncidence + i);
+            if (incidence.start == incidence.end) share = sectorShare(location.firstIncidence + i);
         }
-        vec2 uv = place.isInside ? place.uv : touchPoint(touch, place.t);
-        bool isTouchOfFace = touch.face == face && !isOwn;
-        bool isUsed = i == 0u || isTouchOfFace;
-        Leaf leaf = findLeaf(touch.face, uv);
+        vec2 uv = location.isInside ? location.uv : incidencePoint(incidence, location.t);
+        bool isIncidenceOfFace = incidence.face == face && !isOwn;
+        bool isUsed = i == 0u || isIncidenceOfFace;
+        Leaf leaf = findLeaf(incidence.face, uv);
         SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex), leaf, uv, isUsed);
         direction += share * point.n;
         if (isUsed) {
-            isOwn = touch.face == face;
-            HeightSample height = heightAt(point, place.level);
+            isOwn = incidence.face == face;
+            HeightSample height = heightAt(point, location.level);
             if (i == 0u) {
                 s.p = point.frame.p;
                 s.h = height.h;
@@ -218,9 +218,9 @@ DisplacedSample displaced(uint face, vec2 faceUV, Place place) {
 }
 
 // The same for a point inside a face whose leaf is known.
-DisplacedSample displacedInLeaf(NetPair nets, Leaf leaf, vec2 uv, float level) {
+DisplacedSample displacedInLeaf(PatchPoints patchPoints, Leaf leaf, vec2 uv, float level) {
     DisplacedSample s;
-    SurfacePoint point = surfacePoint(nets, leaf, uv, true);
+    SurfacePoint point = surfacePoint(patchPoints, leaf, uv, true);
     HeightSample height = heightAt(point, level);
     addAttributes(s, point, height);
     s.p = point.frame.p;

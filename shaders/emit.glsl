@@ -8,8 +8,8 @@ layout(xfb_buffer = 0, xfb_stride = 16, xfb_offset = 0, location = 5) out vec4 c
 #endif
 
 // `slot` is the vertex's place among those captured.
-void emitVertex(uint face, vec2 uv, Place place, uint rate, uint slot) {
-    DisplacedSample s = displaced(face, uv, place);
+void emitVertex(uint face, vec2 uv, SampleLocation location, uint rate, uint slot) {
+    DisplacedSample s = displaced(face, uv, location);
     precise vec4 clip = project(s.q);
     gl_Position = clip;
     vNormal = s.normal;
@@ -18,7 +18,7 @@ void emitVertex(uint face, vec2 uv, Place place, uint rate, uint slot) {
     vFace = kShow == kShowLayers ? face : cageFaceOf(face);
     vRate = rate;
 #if defined(RELIEF_CAPTURES_STREAM) || defined(RELIEF_CAPTURES_STORED)
-    vec4 vertex = vec4(s.q, (place.flags & kPlaceOnBoundary) != 0u ? 1.0 : 0.0);
+    vec4 vertex = vec4(s.q, (location.flags & kOnBoundary) != 0u ? 1.0 : 0.0);
 #ifdef RELIEF_CAPTURES_STREAM
     captured = vertex;
 #else

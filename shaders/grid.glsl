@@ -38,11 +38,11 @@ void main() {
     else if (j == m) { side = 2u; k = n - i; }
     else if (i == 0u) { side = 3u; k = m - j; count = m; }
 #endif
-    Place place = insidePlace(face, uv);
+    SampleLocation location = insideLocation(face, uv);
     if (side < 4u) {
         uint entry = fetchFace(face).sides[side];
         SideRate rate = sideRate(entry);
-        place = sidePlace(entry, snap(k, count, rate.segments), rate);
+        location = sideLocation(entry, snap(k, count, rate.segments), rate);
     }
-    emitVertex(face, uv, place, max(n, m), uint(gl_InstanceIndex) * (n + 1u) * (m + 1u) + uint(gl_VertexIndex));
+    emitVertex(face, uv, location, max(n, m), uint(gl_InstanceIndex) * (n + 1u) * (m + 1u) + uint(gl_VertexIndex));
 }

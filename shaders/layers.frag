@@ -7,9 +7,9 @@
 
 // Which point of the surface a pixel sees at its centre: what layers.comp goes by.
 layout(location = 0) out vec4 normalAndTexCoords; // octahedral, (s,t)
-layout(location = 1) out vec4 place;              // (u,v) in the face, height, the face's number and 1
+layout(location = 1) out vec4 surfacePoint;              // (u,v) in the face, height, the face's number and 1
 
 void main() {
     normalAndTexCoords = vec4(octahedral(gl_FrontFacing ? vNormal : -vNormal), vTexCoord.xy);
-    place = vec4(vTexCoord.zw, vHeight, float(vFace) + 1.0);
+    surfacePoint = vec4(vTexCoord.zw, vHeight, float(vFace) + 1.0);
 }

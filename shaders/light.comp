@@ -48,7 +48,7 @@ float keySpecular(float nl, float nv, float nh, float vh, float roughness, float
 // Share of the key light that arrives: eight samples of the shadow map on a spiral, turned from pixel to pixel.
 float keyVisibility(vec3 position, vec3 n) {
     if (scene.hasShadows == 0.0) return 1.0;
-    // The disc reaches shadowSoftness to the side, where a tilted surface lies as much deeper as the sine of its tilt.
+    // The disc heightBounds shadowSoftness to the side, where a tilted surface lies as much deeper as the sine of its tilt.
     float tilt = length(cross(n, scene.keyDirection));
     vec4 clip = scene.worldToShadow * vec4(position + n * scene.shadowBias * (0.5 + 2.0 * tilt), 1.0);
     float angle = 2.0 * kPi * fract(52.9829189 * fract(dot(vec2(gl_GlobalInvocationID.xy), vec2(0.06711056, 0.00583715))));

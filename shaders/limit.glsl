@@ -6,8 +6,8 @@
 
 // Where control points come from: the surface's arrays, unless a stage holds them itself.
 #ifndef RELIEF_POINT
-#define RELIEF_NET_ROW netRow
-#define RELIEF_NET_POINT netPoint
+#define RELIEF_POINT_ROW pointRow
+#define RELIEF_POINT_INDEX pointIndex
 #define RELIEF_POINT pointAt
 #define RELIEF_TEX_POINT texPointAt
 #define RELIEF_UNROLL
@@ -65,8 +65,8 @@ Leaf findLeaf(uint face, vec2 uv) {
 }
 
 // Control point k of a patch of the surface, or of the texture coordinates on it (in x and y).
-vec3 controlPoint(bool isTexture, Net net, uint k) {
-    uint i = RELIEF_NET_POINT(net, k);
+vec3 controlPoint(bool isTexture, ControlPoints points, uint k) {
+    uint i = RELIEF_POINT_INDEX(points, k);
     if (isTexture) return vec3(RELIEF_TEX_POINT(i), 0.0);
     return RELIEF_POINT(i);
 }
@@ -120,12 +120,12 @@ void regularWeights(vec2 uv, uint boundary, out CurveWeights u, out CurveWeights
     }
 }
 
-LimitFrame regular(Net net, vec2 uv) {
+LimitFrame regular(ControlPoints points, vec2 uv) {
     CurveWeights u, v;
-    regularWeights(uv, net.boundary, u, v);
+    regularWeights(uv, points.boundary, u, v);
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        uvec4 i = RELIEF_NET_ROW(net, row);
+        uvec4 i = RELIEF_POINT_ROW(points, row);
         vec3 a = RELIEF_POINT(i.x), b = RELIEF_POINT(i.y), c = RELIEF_POINT(i.z), d = RELIEF_POINT(i.w);
         precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
@@ -141,12 +141,12 @@ LimitFrame regular(Net net, vec2 uv) {
 }
 
 // The same for texture coordinates: two components, first derivatives.
-LimitFrame regularTexture(Net net, vec2 uv) {
+LimitFrame regularTexture(ControlPoints points, vec2 uv) {
     CurveWeights u, v;
-    regularWeights(uv, net.boundary, u, v);
+    regularWeights(uv, points.boundary, u, v);
     vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        uvec4 i = RELIEF_NET_ROW(net, row);
+        uvec4 i = RELIEF_POINT_ROW(points, row);
         vec2 a = RELIEF_TEX_POINT(i.x), b = RELIEF_TEX_POINT(i.y), c = RELIEF_TEX_POINT(i.z), d = RELIEF_TEX_POINT(i.w);
         vec2 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         st += v.w[row] * x;
@@ -166,13 +166,13 @@ LimitFrame regularTexture(Net net, vec2 uv) {
 const uint kGregoryRows[4] = {0u | 1u << 5 | 7u << 10 | 5u << 15, 2u | 3u << 5 | 8u << 10 | 6u << 15,
                               16u | 18u << 5 | 13u << 10 | 12u << 15, 15u | 17u << 5 | 11u << 10 | 10u << 15};
 
-LimitFrame gregory(bool isTexture, Net net, vec2 uv) {
+LimitFrame gregory(bool isTexture, ControlPoints points, vec2 uv) {
     CurveWeights u = bezierWeights(uv.x), v = bezierWeights(uv.y);
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint k = 0u; k < 16u; ++k) {
         uint row = k >> 2, column = k & 3u;
         uint point = (kGregoryRows[row] >> (5u * column)) & 31u;
-        vec3 c = controlPoint(isTexture, net, point);
+        vec3 c = controlPoint(isTexture, points, point);
         vec3 cu = vec3(0), cv = vec3(0), cuu = vec3(0), cuv = vec3(0), cvv = vec3(0);
         if ((row == 1u || row == 2u) && (column == 1u || column == 2u)) {
             // Distances from the corner's two sides and their derivatives: +1 at the near end, -1 at the far one.
@@ -186,7 +186,7 @@ LimitFrame gregory(bool isTexture, Net net, vec2 uv) {
             float gx = (isX ? y : -y) * inverse * inverse, gy = (isX ? -x : x) * inverse * inverse;
             float gxx = -2.0 * gx * inverse, gyy = -2.0 * gy * inverse;
             float gxy = (isX ? x - y : y - x) * inverse * inverse * inverse;
-            vec3 other = controlPoint(isTexture, net, point + 1u);
+            vec3 other = controlPoint(isTexture, points, point + 1u);
             vec3 difference = c - other;
             c = other + g * difference;
             cu = gx * du * difference;
@@ -213,9 +213,9 @@ LimitFrame gregory(bool isTexture, Net net, vec2 uv) {
 
 // --- bilinear patches -----------------------------------------------------------------------------------------------
 
-LimitFrame bilinear(bool isTexture, Net net, vec2 uv) {
-    vec3 a = controlPoint(isTexture, net, 0u), b = controlPoint(isTexture, net, 1u);
-    vec3 c = controlPoint(isTexture, net, 2u), d = controlPoint(isTexture, net, 3u);
+LimitFrame bilinear(bool isTexture, ControlPoints points, vec2 uv) {
+    vec3 a = controlPoint(isTexture, points, 0u), b = controlPoint(isTexture, points, 1u);
+    vec3 c = controlPoint(isTexture, points, 2u), d = controlPoint(isTexture, points, 3u);
     LimitFrame f = kNoFrame;
     precise vec3 low = (1.0 - uv.x) * a + uv.x * b, high = (1.0 - uv.x) * d + uv.x * c;
     precise vec3 p = (1.0 - uv.y) * low + uv.y * high;
@@ -236,10 +236,10 @@ struct Weights {
     float p[18], du[18], dv[18], duu[18], duv[18], dvv[18];
 };
 
-LimitFrame weighted(Weights w, int count, bool isTexture, Net net) {
+LimitFrame weighted(Weights w, int count, bool isTexture, ControlPoints points) {
     precise LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(isTexture, net, uint(i));
+        vec3 c = controlPoint(isTexture, points, uint(i));
         f.p += w.p[i] * c;
         f.pu += w.du[i] * c;
         f.pv += w.dv[i] * c;
@@ -281,10 +281,10 @@ void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2
     }
 }
 
-LimitFrame trianglePatch(bool isTexture, Net net, vec2 uv) {
+LimitFrame trianglePatch(bool isTexture, ControlPoints points, vec2 uv) {
     Weights w;
     int count = 18;
-    if (net.type == kPatchGregoryTriangle) {
+    if (points.type == kPatchGregoryTriangle) {
         Osd_EvalBasisGregoryTri(uv.x, uv.y, w.p, w.du, w.dv, w.duu, w.duv, w.dvv);
         float u = uv.x, v = uv.y, t = 1.0 - u - v;
         addQuotientRule(w, 3, u, v, vec2(1, 0), vec2(0, 1));
@@ -293,9 +293,9 @@ LimitFrame trianglePatch(bool isTexture, Net net, vec2 uv) {
     } else {
         float p[12], du[12], dv[12], duu[12], duv[12], dvv[12];
         count = 12;
-        if (net.type == kPatchLoop) {
+        if (points.type == kPatchLoop) {
             Osd_EvalBasisBoxSplineTri(uv.x, uv.y, p, du, dv, duu, duv, dvv);
-            if (net.boundary != 0u) Osd_boundBasisBoxSplineTri(int(net.boundary), p, du, dv, duu, duv, dvv);
+            if (points.boundary != 0u) Osd_boundBasisBoxSplineTri(int(points.boundary), p, du, dv, duu, duv, dvv);
         } else {
             count = 3;
             p[0] = 1.0 - uv.x - uv.y, p[1] = uv.x, p[2] = uv.y;
@@ -308,7 +308,7 @@ LimitFrame trianglePatch(bool isTexture, Net net, vec2 uv) {
             w.duu[i] = duu[i], w.duv[i] = duv[i], w.dvv[i] = dvv[i];
         }
     }
-    return weighted(w, count, isTexture, net);
+    return weighted(w, count, isTexture, points);
 }
 #endif
 
@@ -316,13 +316,13 @@ LimitFrame trianglePatch(bool isTexture, Net net, vec2 uv) {
 
 // --- any patch, by OpenSubdiv's generic basis: the check of the forms above -----------------------------------------
 
-LimitFrame generic(bool isTexture, Net net, vec2 uv) {
+LimitFrame generic(bool isTexture, ControlPoints points, vec2 uv) {
     float p[20], du[20], dv[20], duu[20], duv[20], dvv[20];
-    OsdPatchParam param = OsdPatchParamInit(0, int(net.boundary << 7), 0.0);
-    int count = OsdEvaluatePatchBasisNormalized(int(net.type), param, uv.x, uv.y, p, du, dv, duu, duv, dvv);
+    OsdPatchParam param = OsdPatchParamInit(0, int(points.boundary << 7), 0.0);
+    int count = OsdEvaluatePatchBasisNormalized(int(points.type), param, uv.x, uv.y, p, du, dv, duu, duv, dvv);
     LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(isTexture, net, uint(i));
+        vec3 c = controlPoint(isTexture, points, uint(i));
         f.p += p[i] * c;
         f.pu += du[i] * c;
         f.pv += dv[i] * c;
@@ -335,21 +335,21 @@ LimitFrame generic(bool isTexture, Net net, vec2 uv) {
 #endif
 
 // The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it.
-LimitFrame patchFrame(bool isTexture, NetPair nets, vec2 uv) {
-    Net net = nets.points;
-    if (isTexture) net = nets.texPoints;
+LimitFrame patchFrame(bool isTexture, PatchPoints patchPoints, vec2 uv) {
+    ControlPoints points = patchPoints.surface;
+    if (isTexture) points = patchPoints.texture;
 #ifdef RELIEF_TRIANGLES
-    return trianglePatch(isTexture, net, uv);
+    return trianglePatch(isTexture, points, uv);
 #else
 #ifdef RELIEF_GENERIC_BASIS
-    if (kGenericBasis) return generic(isTexture, net, uv);
+    if (kGenericBasis) return generic(isTexture, points, uv);
 #endif
-    if (net.type == kPatchRegular) {
-        if (isTexture) return regularTexture(net, uv);
-        return regular(net, uv);
+    if (points.type == kPatchRegular) {
+        if (isTexture) return regularTexture(points, uv);
+        return regular(points, uv);
     }
-    if (net.type == kPatchQuads) return bilinear(isTexture, net, uv);
-    return gregory(isTexture, net, uv);
+    if (points.type == kPatchQuads) return bilinear(isTexture, points, uv);
+    return gregory(isTexture, points, uv);
 #endif
 }
 

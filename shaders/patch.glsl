@@ -51,11 +51,11 @@ void main() {
     vec2 uv = facePoint();
     float x;
     uint side = findSide(x);
-    Place place = insidePlace(face, uv);
+    SampleLocation location = insideLocation(face, uv);
     if (side != kInside) {
         uint entry = fetchFace(face).sides[side];
         SideRate rate = sideRate(entry);
-        place = sidePlace(entry, uint(round(x * float(rate.segments))), rate);
+        location = sideLocation(entry, uint(round(x * float(rate.segments))), rate);
     }
-    emitVertex(face, uv, place, uint(ceil(max(insideRates.x, insideRates.y))), 0u);
+    emitVertex(face, uv, location, uint(ceil(max(insideRates.x, insideRates.y))), 0u);
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "places.glsl"
+#include "locations.glsl"
 
 layout(vertices = 1) out;
 layout(location = 0) flat in uint faceIn[];

@@ -11,10 +11,10 @@ layout(local_size_x_id = 7) in;
 // lane a row, points from the texture caches.
 layout(constant_id = 0) const uint kEntries = 0u;
 
-layout(set = 0, binding = kPoseWords) uniform usamplerBuffer wordTexels;
+layout(set = 0, binding = kPoseWords) uniform usamplerBuffer treeTexels;
 layout(set = 0, binding = kPoseWeights) uniform samplerBuffer weightTexels;
 
-uint word(uint i) { return texelFetch(wordTexels, int(i)).x; }
+uint word(uint i) { return texelFetch(treeTexels, int(i)).x; }
 vec3 entryPoint(uint i) { return texelFetch(pointTexels, int(firstPoint + word(firstEntry + i))).xyz; }
 // Weights of four entries, e a multiple of 4, in one row of their block.
 vec4 weightsOf(uint e, uint row) { return texelFetch(weightTexels, int(4u * e + row)); }

@@ -15,8 +15,8 @@ float pixelLength(uint edge) {
     float pixels = 0.0, straight = 0.0, middle = 0.0;
     vec3 last = vec3(0), lastLimit = vec3(0);
     for (uint k = 0u; k <= pieces; ++k) {
-        Place place = edgePlace(edge, k, pieces, float(pieces));
-        DisplacedSample s = displaced(place.owner.face, vec2(0), place);
+        SampleLocation location = edgeLocation(edge, k, pieces, float(pieces));
+        DisplacedSample s = displaced(location.owner.face, vec2(0), location);
         vec3 q = s.q;
         float distance = max(length(0.5 * (q + last) - scene.eye), scene.nearDistance);
         if (k > 0u) pixels += length(q - last) * scene.pixelsAtUnitDistance / distance;
@@ -41,5 +41,5 @@ void main() {
     if (scene.isFractional == 0u) rate = ceil(rate);
     uint limit = partner == edge ? scene.maxRate : max(scene.maxRate / 2u, 1u);
     // NaN compares false: it becomes 1, never a missing face.
-    scene.edgeRateTarget.at[edge] = rate > 1.0 ? min(rate, float(limit)) : 1.0;
+    scene.edgeTarget.at[edge] = rate > 1.0 ? min(rate, float(limit)) : 1.0;
 }

@@ -12,7 +12,7 @@ void main() {
     if (i >= passNumber) return;
     uint face = scene.sampleQueries.at[i].face;
     vec2 uv = scene.sampleQueries.at[i].uv;
-    DisplacedSample s = displaced(face, uv, insidePlace(face, uv));
+    DisplacedSample s = displaced(face, uv, insideLocation(face, uv));
     scene.sampleResults.at[i].p = s.p;
     scene.sampleResults.at[i].pu = s.frame.pu;
     scene.sampleResults.at[i].pv = s.frame.pv;

@@ -44,7 +44,7 @@ void main() {
     normal = roundToHalf(octahedral(n));
     vec3 c = scene.albedo;
     if (kHasAlbedoMap) c *= texture(albedoMap, vec2(vTexCoord.x, 1.0 - vTexCoord.y)).rgb;
-    if (kShow == kShowHeight) c = heightColor(scene.heightReach > 0.0 ? vHeight / scene.heightReach : 0.0);
+    if (kShow == kShowHeight) c = heightColor(scene.heightBound > 0.0 ? vHeight / scene.heightBound : 0.0);
     else if (kShow == kShowRate) c = rateColor(float(vRate));
     else if (kShow == kShowFaces) c = faceColor(vFace);
     else if (kShow == kShowWireframe) c = shown(ivec3(204, 209, 217));

@@ -12,8 +12,8 @@ namespace relief {
 
 // Vertices of one edge or corner that share their attributes.
 struct VertexRun {
-    Touch touch;       // a face that they belong to
-    uint place;        // the edge, or the corner
+    Incidence incidence;       // a face that they belong to
+    uint element;      // the edge, or the corner
     uint isCorner;
 };
 

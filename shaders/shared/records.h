@@ -5,19 +5,19 @@
 //              x                            y                        z                          w
 //   Face       root                         sides[0]                 sides[1]                   sides[2]
 //              sides[3]                     cageFace                 -                          -
-//   Edge       face:28 side:2 flags:2       corners[0]:30 span:2     corners[1]:30 partner:2    first touch, kNoTouch: smooth
-//   Corner     face:28 side:2 flags:2       isMiddle:1 touches:31    first touch                -
-//   Touch      face                         side:8 count:24          start                      end
-//   Patch      its nets                     base                     base of texture points     type:4 type of texture:4
+//   Edge       face:28 side:2 flags:2       corners[0]:30 span:2     corners[1]:30 partner:2    first incidence, kNoIncidence: smooth
+//   Corner     face:28 side:2 flags:2       isMiddle:1 incidences:31    first incidence                -
+//   Incidence      face                         side:8 count:24          start                      end
+//   Patch      its control points                     base                     base of texture points     type:4 type of texture:4
 //                                                                                               boundary:5 of texture:5 texels:6
 //                                                                                               straight corners:4
 // clang-format on
 //
-// Touches are counted from the first one. `count` is how many touches the edge has, in its first; at a corner it is
-// Surface::sectorFaces of the touch. The nets of a patch are the texel where the numbers of its control points begin,
+// Incidences are counted from the first one. `count` is how many incidences the edge has, in its first; at a corner it is
+// Surface::sectorFaces of the incidence. The control points of a patch are the texel where the numbers of its control points begin,
 // less its base, eight 16-bit numbers per texel; those of its texture coordinates follow after `texels` texels. Where the
 // points of a patch are too far apart for 16 bits all patches have a base of 0 and four 32-bit numbers per texel
-// (kHasWideNets).
+// (kHasWideIndices).
 #ifndef RELIEF_SHARED_RECORDS_H
 #define RELIEF_SHARED_RECORDS_H
 
@@ -31,10 +31,10 @@ namespace relief {
 RELIEF_CONSTANT uint kFaceTexels = 2u;
 RELIEF_CONSTANT uint kEdgeTexels = 1u;
 RELIEF_CONSTANT uint kCornerTexels = 1u;
-RELIEF_CONSTANT uint kTouchTexels = 1u;
+RELIEF_CONSTANT uint kIncidenceTexels = 1u;
 RELIEF_CONSTANT uint kPatchTexels = 1u;
 
-RELIEF_CONSTANT uint kNoTouch = 0xffffffffu;
+RELIEF_CONSTANT uint kNoIncidence = 0xffffffffu;
 
 // Edge, span: how much of the side the edge is, in the owner's direction.
 RELIEF_CONSTANT uint kSpanWhole = 0u;

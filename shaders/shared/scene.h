@@ -30,8 +30,8 @@ RELIEF_CONSTANT uint kBindHeight = 1u;       // words of the height map: shared/
 RELIEF_CONSTANT uint kBindAlbedo = 2u;       // sampled images
 RELIEF_CONSTANT uint kBindEnvironment = 3u;
 RELIEF_CONSTANT uint kBindShadow = 4u;
-RELIEF_CONSTANT uint kBindRecords = 5u;      // texel buffers: faces, patches and their nets, edges, corners, touches: shared/records.h
-RELIEF_CONSTANT uint kBindWords = 6u;        // tree
+RELIEF_CONSTANT uint kBindRecords = 5u;      // texel buffers: faces, patches and their control points, edges, corners, incidences: shared/records.h
+RELIEF_CONSTANT uint kBindTree = 6u;        // tree
 RELIEF_CONSTANT uint kBindPoints = 7u;
 RELIEF_CONSTANT uint kBindTexPoints = 8u;
 RELIEF_CONSTANT uint kBindEdgeRates = 9u;    // segments an edge, floats: written per frame
@@ -48,8 +48,8 @@ RELIEF_CONSTANT uint kBindNormals = 19u;
 RELIEF_CONSTANT uint kBindColors = 20u;
 RELIEF_CONSTANT uint kBindCount = 21u;
 
-// What texels.comp leaves for each edge: its length in texels, the lowest and the highest (s,t) on it.
-RELIEF_CONSTANT uint kTexelWords = 5u;
+// What footprints.comp leaves for each edge: its length in texels, the lowest and the highest (s,t) on it.
+RELIEF_CONSTANT uint kFootprintFloats = 5u;
 
 // --show
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -70,7 +70,7 @@ RELIEF_CONSTANT uint kNormalFull = 2u;
 struct Scene {
     // Written through addresses: light.comp (four halves a pixel), rates.comp, sample.comp, ...
     RELIEF_ADDRESS(WordPairs) pictureTarget;
-    RELIEF_ADDRESS(Floats) edgeRateTarget;
+    RELIEF_ADDRESS(Floats) edgeTarget;
     RELIEF_ADDRESS(Queries) sampleQueries;
     RELIEF_ADDRESS(Results) sampleResults;
     RELIEF_ADDRESS(Vectors) captureTarget;
@@ -84,7 +84,7 @@ struct Scene {
     uint firstPatch;
     uint firstEdge;
     uint firstCorner;
-    uint firstTouch;
+    uint firstIncidence;
     uint firstFaceRuns;      // texels of kBindDiceTable; runs are at 0
     uint cornerRunCount;     // runs of one vertex: the first ones
     uint runCount;
@@ -124,7 +124,7 @@ struct Scene {
     float environmentLevel; // of the environment map for this roughness, a whole number: one level is read
     vec3 albedo;            // linear; times the albedo map where there is one
     float roughness;
-    float heightReach;      // largest |h|, for --show height
+    float heightBound;      // largest |h|, for --show height
     mat4 worldToShadow;
     float hasShadows;       // 1 or 0
     float shadowBias;       // cage units along the normal

@@ -39,8 +39,8 @@ RELIEF_CONSTANT uint kPatchGregory = 9u;
 RELIEF_CONSTANT uint kPatchGregoryTriangle = 10u;
 
 // What an edge or corner is besides.
-RELIEF_CONSTANT uint kPlaceOnBoundary = 1u; // an edge of one drawn face alone, or an end of such an edge
-RELIEF_CONSTANT uint kPlaceOnSeam = 2u;     // an edge whose faces have texture coordinates of their own
+RELIEF_CONSTANT uint kOnBoundary = 1u; // an edge of one drawn face alone, or an end of such an edge
+RELIEF_CONSTANT uint kOnSeam = 2u;     // an edge whose faces have texture coordinates of their own
 
 // Control points of a patch.
 RELIEF_SHARED_FUNCTION uint patchSize(uint type) {
@@ -80,7 +80,7 @@ struct Face {
 };
 
 // A stretch of one side of one face: an edge's parameter t in [0,1] is at x = start + t (end - start) along the side.
-struct Touch {
+struct Incidence {
     uint face;
     uint side; // for corners: start = end, 0 at the face's corner `side`, ½ in the middle of a split side
     float start;
@@ -89,23 +89,23 @@ struct Touch {
 
 // Every edge has one owner, the incident face with the lowest index; its direction is the owner's (start < end).
 struct Edge {
-    Touch owner;
+    Incidence owner;
     uint corners[2]; // at t = 0 and t = 1
-    uint firstTouch; // into Surface::touches: all incident faces in index order,
-    uint touchCount; // or 0 where the owner's normal is the surface's (smooth edges)
+    uint firstIncidence; // into Surface::incidences: all incident faces in index order,
+    uint incidenceCount; // or 0 where the owner's normal is the surface's (smooth edges)
     uint partner;    // the other half of a split cage edge, or the edge itself
-    uint flags;      // kPlace...
+    uint flags;      // kOn...
 };
 
 struct Corner {
-    Touch owner;
-    uint firstTouch; // as for edges
-    uint touchCount;
-    uint flags; // kPlace...
+    Incidence owner;
+    uint firstIncidence; // as for edges
+    uint incidenceCount;
+    uint flags; // kOn...
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Patch) == 32 && sizeof(Face) == 24 && sizeof(Touch) == 16);
+static_assert(sizeof(Patch) == 32 && sizeof(Face) == 24 && sizeof(Incidence) == 16);
 static_assert(sizeof(Edge) == 40 && sizeof(Corner) == 28);
 } // namespace relief
 #endif

@@ -130,7 +130,7 @@ Certificate certify(const CheckArgs& args, const Loaded& loaded) {
                             .faceCount = loaded.surface.faces.size(),
                             .isolation = loaded.options.isolation,
                             .diagonal = summarize(loaded.cage).bounds.diagonal() / loaded.coordinates().unit,
-                            .reach = loaded.height ? loaded.height->reach() : 0,
+                            .reach = loaded.height ? loaded.height->heightBound() : 0,
                             .coordinates = loaded.coordinates()};
     const std::optional<Picture> heatmap = checkPoints(device, model, loaded, args, certificate);
     progress.advance();

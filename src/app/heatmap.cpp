@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/stages.h"
+#include "triangles/stages.h"
 
 namespace relief::app {
 namespace {

@@ -65,7 +65,7 @@ json ofSeams(SurfaceArgs args, const std::string& cage, bool isQuiet) {
     const Loaded loaded = load(args, {.isQuiet = isQuiet});
     const ReferenceSurface reference(loaded.cage, loaded.options);
     const SeamReport seams = reportSeams(loaded.surface, reference, *loaded.height);
-    const double unit = loaded.coordinates().unit, reach = loaded.height->reach();
+    const double unit = loaded.coordinates().unit, reach = loaded.height->heightBound();
     json result{{"map", args.height},
                 {"map_reach", unit * reach},
                 {"map_seam_edges", seams.seamEdgeCount},

@@ -41,7 +41,7 @@ bool wantsMotion(const PictureArgs& args) {
 void suitHeights(Loaded& loaded, const Warn& warn) {
     constexpr double kUsual = 1 << 20, kMost = 1e15;
     Coordinates& coordinates = loaded.cage.coordinates;
-    const double reach = loaded.height->reach(), size = summarize(loaded.cage).bounds.longestSide();
+    const double reach = loaded.height->heightBound(), size = summarize(loaded.cage).bounds.longestSide();
     const double ratio = size > 0 ? reach / size : 0;
     if (ratio > kMost)
         warn(fmt::format("heights of up to {:.3g} cage units on a cage {:.3g} large: 32-bit floats hold at most {:.0e} "

@@ -16,6 +16,8 @@
 #define GLM_FORCE_DEPTH_ZERO_TO_ONE
 #include <glm/glm.hpp>
 
+#include "base/checks.h"
+
 namespace relief {
 
 using glm::dmat2;

@@ -9,7 +9,7 @@
 
 #include "cage/edges.h"
 #include "cage/obj.h"
-#include "cage/places.h"
+#include "base/unique_points.h"
 
 namespace relief {
 
@@ -23,7 +23,7 @@ public:
 private:
     void readCrease(const ObjTag& tag);
     void addCrease(std::uint32_t a, std::uint32_t b, float sharpness);
-    void findPlaces();
+    void findUniquePoints();
     void readCorner(const ObjTag& tag);
     void readHole(const ObjTag& tag);
     void readBoundaryRule(const ObjTag& tag);
@@ -79,7 +79,7 @@ void TagReader::readCrease(const ObjTag& tag) {
     const std::uint32_t b = checkIndex(tag, tag.ints[1], cage_.positions.size(), "vertex");
     const float sharpness = checkSharpness(tag, tag.floats[0]);
     if (hasEdge(edges_, a, b)) return addCrease(a, b, sharpness);
-    if (edgesAtPlace_.empty()) findPlaces();
+    if (edgesAtPlace_.empty()) findUniquePoints();
     const auto [first, end] = edgesAtPlace_.equal_range(edgeKey(places_[a], places_[b]));
     if (first == end)
         failAtLine(name_, tag.line, "no face has an edge between vertices {} and {} (counted from 0)", a, b);
@@ -98,9 +98,9 @@ void TagReader::addCrease(std::uint32_t a, std::uint32_t b, float sharpness) {
     cage_.creaseSharpness.push_back(sharpness);
 }
 
-void TagReader::findPlaces() {
-    const Places places = relief::findPlaces(cage_.positions);
-    for (const std::uint32_t place : places.ofPoints) places_.push_back(places.firsts[place]);
+void TagReader::findUniquePoints() {
+    const UniquePoints places = relief::findUniquePoints(cage_.positions);
+    for (const std::uint32_t place : places.indices) places_.push_back(places.firsts[place]);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         const std::uint64_t key = edges_[i].key;
         if (i > 0 && edges_[i - 1].key == key) continue;

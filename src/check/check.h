@@ -6,7 +6,7 @@
 #include <span>
 
 #include "displacement/displacement.h"
-#include "model/model.h"
+#include "triangles/triangles.h"
 #include "shared/sample.h"
 #include "surface/surface.h"
 

@@ -12,6 +12,10 @@
 
 namespace relief {
 
+/// Normals of a displaced surface: of the limit surface below it, without the change of the normal along the surface,
+/// or with it (shared/displacement.h).
+enum class NormalKind { limit, firstOrder, full };
+
 /// What a lookup outside [0,1] finds: the map again, or its border.
 enum class Wrap { repeat, clamp };
 
@@ -49,7 +53,7 @@ struct HeightMap {
     std::vector<std::uint8_t> blocks;   ///< bc4: 8 bytes each, row after row
 
     /// Largest |h| in cage units.
-    [[nodiscard]] double reach() const;
+    [[nodiscard]] double heightBound() const;
     [[nodiscard]] std::uint64_t byteCount() const { return texels.size() * sizeof(float); }
 };
 

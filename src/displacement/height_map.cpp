@@ -113,7 +113,7 @@ MapFormat fileFormat(const ImageInfo& info) {
     return MapFormat::real;
 }
 
-double HeightMap::reach() const { return std::abs(scale) * std::max(std::abs(lowest - mid), std::abs(highest - mid)); }
+double HeightMap::heightBound() const { return std::abs(scale) * std::max(std::abs(lowest - mid), std::abs(highest - mid)); }
 
 HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn) {
     const ImageInfo info = readImageInfo(path, options.limits);

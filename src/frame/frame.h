@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "model/model.h"
+#include "triangles/triangles.h"
 
 namespace relief {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "frame/frame.h"
-#include "model/stages.h"
+#include "triangles/stages.h"
 
 namespace relief {
 

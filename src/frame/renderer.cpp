@@ -95,7 +95,7 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
         graphics.samples = VK_SAMPLE_COUNT_4_BIT;
     }
     if (pass == Pass::cracks) {
-        graphics.addsUp = true;
+        graphics.additiveBlend = true;
         graphics.colorFormats = {kCrackFormat};
         graphics.depthFormat = VK_FORMAT_UNDEFINED;
         graphics.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -106,7 +106,7 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
     }
     if (pass == Pass::lines) {
         graphics.polygonMode = VK_POLYGON_MODE_LINE;
-        graphics.pullsLinesForward = true;
+        graphics.depthBias = true;
     }
     return pipelines[key] = makeGraphics(device, graphics);
 }

@@ -210,9 +210,9 @@ struct GraphicsDesc {
     PipelineLayoutDesc layout;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkPolygonMode polygonMode = VK_POLYGON_MODE_FILL;
-    bool drawsNothing = false;          ///< vertices alone: no rasterization
-    bool addsUp = false;                ///< colors are added, without depth
-    bool pullsLinesForward = false;     ///< depth bias, for a wireframe over its own surface
+    bool rasterizerDiscard = false;          ///< vertices alone: no rasterization
+    bool additiveBlend = false;                ///< colors are added, without depth
+    bool depthBias = false;     ///< depth bias, for a wireframe over its own surface
     std::vector<VkFormat> colorFormats; ///< none: depth alone
     VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;

@@ -62,11 +62,11 @@ VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderM
 
 VkPipelineRasterizationStateCreateInfo rasterState(const GraphicsDesc& desc) {
     VkPipelineRasterizationStateCreateInfo raster{VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    raster.rasterizerDiscardEnable = desc.drawsNothing ? VK_TRUE : VK_FALSE;
+    raster.rasterizerDiscardEnable = desc.rasterizerDiscard ? VK_TRUE : VK_FALSE;
     raster.polygonMode = desc.polygonMode;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
-    raster.depthBiasEnable = desc.pullsLinesForward ? VK_TRUE : VK_FALSE;
+    raster.depthBiasEnable = desc.depthBias ? VK_TRUE : VK_FALSE;
     raster.depthBiasConstantFactor = 64;
     raster.depthBiasSlopeFactor = 2;
     return raster;
@@ -96,11 +96,11 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     samples.rasterizationSamples = desc.samples;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
-    depth.depthTestEnable = depth.depthWriteEnable = desc.addsUp ? VK_FALSE : VK_TRUE;
+    depth.depthTestEnable = depth.depthWriteEnable = desc.additiveBlend ? VK_FALSE : VK_TRUE;
     depth.depthCompareOp = VK_COMPARE_OP_GREATER_OR_EQUAL;
     VkPipelineColorBlendAttachmentState each{};
     each.colorWriteMask = 0xf;
-    each.blendEnable = desc.addsUp ? VK_TRUE : VK_FALSE;
+    each.blendEnable = desc.additiveBlend ? VK_TRUE : VK_FALSE;
     each.srcColorBlendFactor = each.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
     each.srcAlphaBlendFactor = each.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.colorFormats.size(), each);

@@ -9,7 +9,7 @@ namespace {
 // What shaders/limit.glsl and heights.glsl read for one point of a regular bicubic patch.
 constexpr std::uint64_t kRootAndPatch = 2 * 16; ///< texels
 constexpr std::uint64_t kTreeWords = 2 * 4;     ///< the root, and one entry below it
-constexpr std::uint64_t kNet = 16 * 2, kWideNet = 16 * 4;
+constexpr std::uint64_t kNarrowIndices = 16 * 2, kWideIndices = 16 * 4;
 constexpr std::uint64_t kPoints = 16 * 16, kTexPoints = 16 * 8;
 constexpr std::uint64_t kHeightTexels = 12; ///< around the height and its central differences
 
@@ -25,8 +25,8 @@ Traffic denseTraffic(const DenseLayout& layout, const MeshCounts& counts, std::u
 }
 
 std::uint64_t evaluationBytes(const Evaluation& evaluation) {
-    const std::uint64_t net = evaluation.hasWideNets ? kWideNet : kNet;
-    return kRootAndPatch + kTreeWords + net + kPoints + (evaluation.hasTexCoords ? net + kTexPoints : 0) +
+    const std::uint64_t indices = evaluation.hasWideIndices ? kWideIndices : kNarrowIndices;
+    return kRootAndPatch + kTreeWords + indices + kPoints + (evaluation.hasTexCoords ? indices + kTexPoints : 0) +
            kHeightTexels * (evaluation.format == MapFormat::bc4 ? 8 : 4);
 }
 

@@ -78,7 +78,7 @@ const Judged& Contest::judged(const Saving& saving) {
     const std::unique_ptr<Model> on = model(saving);
     const DenseMesh made = meshOf(*on, saving.rate);
     const MeshCounts counts{made.positions.size(), made.indices.size() / 3};
-    const Evaluation evaluation{on->hasTexCoords(), on->hasWideNets(), saving.format};
+    const Evaluation evaluation{on->hasTexCoords(), on->hasWideIndices(), saving.format};
     return judged_.emplace(saving, Judged{errorOf(made), counts, on->byteCount(), evaluation}).first->second;
 }
 

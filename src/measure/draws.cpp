@@ -98,7 +98,7 @@ void Drawn::tell(Row& row) const {
         const std::uint64_t calls = options.path == Path::tessellation ? counts.tessellationCalls : counts.vertexCalls;
         traffic = surfaceTraffic({.residentBytes = model->byteCount(),
                                   .calls = hasCounts && !isDiced ? calls : mesh.vertices,
-                                  .evaluation = {model->hasTexCoords(), model->hasWideNets(), model->mapFormat()},
+                                  .evaluation = {model->hasTexCoords(), model->hasWideIndices(), model->mapFormat()},
                                   .diced = isDiced ? mesh : MeshCounts{}});
     }
     row.add("read a frame, least", "bytes", Origin::computed, double(traffic.least));

@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "bake/bake.h"
+#include "distance/distance.h"
 #include "frame/frame.h"
 
 namespace relief {
@@ -118,7 +118,7 @@ Traffic denseTraffic(const DenseLayout& layout, const MeshCounts& counts, std::u
 /// What one evaluation of a bicubic patch with its height reads.
 struct Evaluation {
     bool hasTexCoords = true;
-    bool hasWideNets = false; ///< as Model
+    bool hasWideIndices = false; ///< as Model
     MapFormat format = MapFormat::real;
 };
 /// Records, tree, 16 points with their numbers, 12 texels of the map: a word each, of BC4 two.

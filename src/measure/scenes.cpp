@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "bake/bake.h"
 #include "measure/embedded.h"
 #include "measure/parts.h"
 

@@ -68,7 +68,7 @@ void describe(Results& results, const DeviceTraits& traits, const MeasureOptions
         results.settings["scene " + subject.name] =
             fmt::format("{} faces, isolation {}, map {} x {}, reach {:.4g} of the diagonal", subject.cage.faceCount(),
                         subject.surface.isolation, subject.height.width, subject.height.height,
-                        subject.height.reach() / diagonalOf(subject.cage));
+                        subject.height.heightBound() / diagonalOf(subject.cage));
 }
 
 } // namespace

@@ -107,10 +107,10 @@ Range HeightPyramid::range(const vec2& lower, const vec2& upper) const {
     return heights(blocksIn(level, first, last));
 }
 
-std::vector<float> faceReaches(const Surface& surface, const HeightMap* map, const HeightPyramid& pyramid) {
-    std::vector<float> reaches(surface.faces.size(), 0);
-    if (map == nullptr) return reaches;
-    for (std::size_t f = 0; f < reaches.size(); ++f) {
+std::vector<float> faceHeightBounds(const Surface& surface, const HeightMap* map, const HeightPyramid& pyramid) {
+    std::vector<float> heightBounds(surface.faces.size(), 0);
+    if (map == nullptr) return heightBounds;
+    for (std::size_t f = 0; f < heightBounds.size(); ++f) {
         Box<vec2> texture;
         if (!surface.hasTexCoords()) texture = {vec2(0), vec2(1)}; // every face takes the whole map
         for (const TreeLeaf& leaf : leavesOf(surface.tree, surface.faces[f].root)) {
@@ -122,12 +122,13 @@ std::vector<float> faceReaches(const Surface& surface, const HeightMap* map, con
         }
         if (texture.isEmpty()) continue;
         const Range range = pyramid.range(texture.lower, texture.upper);
-        reaches[f] = std::max(std::abs(range.lowest), std::abs(range.highest));
+        heightBounds[f] = std::max(std::abs(range.lowest), std::abs(range.highest));
     }
-    return reaches;
+    return heightBounds;
 }
 
-std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points, std::span<const float> reaches) {
+std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points,
+                               std::span<const float> heightBounds) {
     std::vector<Bounds> bounds(surface.faces.size());
     for (std::size_t f = 0; f < bounds.size(); ++f) {
         Box<vec3> box;
@@ -137,8 +138,8 @@ std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> poi
                                    points, patch.param1));
         }
         if (box.isEmpty()) continue;
-        bounds[f].add(dvec3(box.lower) - double(reaches[f]));
-        bounds[f].add(dvec3(box.upper) + double(reaches[f]));
+        bounds[f].add(dvec3(box.lower) - double(heightBounds[f]));
+        bounds[f].add(dvec3(box.upper) + double(heightBounds[f]));
     }
     return bounds;
 }
@@ -147,7 +148,7 @@ namespace {
 
 /// Control points of a bicubic patch by row and column; first and second differences are those of its derivatives.
 template <typename V>
-struct Net {
+struct ControlPoints {
     V points[4][4];
 
     [[nodiscard]] V du(int row, int column) const { return points[row][column + 1] - points[row][column]; }
@@ -155,27 +156,27 @@ struct Net {
 };
 
 template <typename V, typename P>
-Net<V> netOf(std::span<const std::uint32_t> indices, std::span<const P> points) {
-    Net<V> net;
-    for (std::size_t i = 0; i < 16; ++i) net.points[i / 4][i % 4] = V(points[indices[i]]);
-    return net;
+ControlPoints<V> controlPoints(std::span<const std::uint32_t> indices, std::span<const P> points) {
+    ControlPoints<V> control;
+    for (std::size_t i = 0; i < 16; ++i) control.points[i / 4][i % 4] = V(points[indices[i]]);
+    return control;
 }
 
-/// Longest vectors of each kind over a net.
+/// Longest vectors of each kind over a control.
 struct Lengths {
     double u = 0, v = 0, uu = 0, uv = 0, vv = 0;
 };
 
-Lengths lengthsOf(const Net<dvec3>& net) {
+Lengths lengthsOf(const ControlPoints<dvec3>& control) {
     Lengths l;
     const auto grow = [](double& most, const dvec3& x) { most = std::max(most, glm::length(x)); };
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 4; ++column) {
-            if (column < 3) grow(l.u, net.du(row, column));
-            if (row < 3) grow(l.v, net.dv(row, column));
-            if (column < 2) grow(l.uu, net.du(row, column + 1) - net.du(row, column));
-            if (row < 2) grow(l.vv, net.dv(row + 1, column) - net.dv(row, column));
-            if (column < 3 && row < 3) grow(l.uv, net.du(row + 1, column) - net.du(row, column));
+            if (column < 3) grow(l.u, control.du(row, column));
+            if (row < 3) grow(l.v, control.dv(row, column));
+            if (column < 2) grow(l.uu, control.du(row, column + 1) - control.du(row, column));
+            if (row < 2) grow(l.vv, control.dv(row + 1, column) - control.dv(row, column));
+            if (column < 3 && row < 3) grow(l.uv, control.du(row + 1, column) - control.du(row, column));
         }
     return l;
 }
@@ -185,11 +186,11 @@ struct TextureSlopes {
     double su = 1, sv = 0, tu = 0, tv = 1; ///< of a face's own (u,v)
 };
 
-TextureSlopes slopesOf(const Net<dvec2>& net) {
+TextureSlopes slopesOf(const ControlPoints<dvec2>& control) {
     TextureSlopes most{0, 0, 0, 0};
     for (int row = 0; row < 4; ++row)
         for (int column = 0; column < 3; ++column) {
-            const dvec2 u = glm::abs(net.du(row, column)), v = glm::abs(net.dv(column, row));
+            const dvec2 u = glm::abs(control.du(row, column)), v = glm::abs(control.dv(column, row));
             most.su = std::max(most.su, u.x), most.tu = std::max(most.tu, u.y);
             most.sv = std::max(most.sv, v.x), most.tv = std::max(most.tv, v.y);
         }
@@ -197,11 +198,11 @@ TextureSlopes slopesOf(const Net<dvec2>& net) {
 }
 
 /// p_u x p_v is a convex combination of the products of all differences along u with all along v.
-std::vector<dvec3> areaVectors(const Net<dvec3>& net) {
+std::vector<dvec3> areaVectors(const ControlPoints<dvec3>& control) {
     std::vector<dvec3> vectors;
     vectors.reserve(144);
     for (int i = 0; i < 12; ++i)
-        for (int j = 0; j < 12; ++j) vectors.push_back(glm::cross(net.du(i / 3, i % 3), net.dv(j % 3, j / 3)));
+        for (int j = 0; j < 12; ++j) vectors.push_back(glm::cross(control.du(i / 3, i % 3), control.dv(j % 3, j / 3)));
     return vectors;
 }
 
@@ -241,8 +242,8 @@ bool isPlain(std::uint32_t type, std::uint32_t param1) { return type == kPatchRe
 NormalBounds boundsOfPatch(const Surface& surface, const Patch& patch, std::span<const vec3> points,
                            const HeightPyramid* pyramid) {
     if (!isPlain(patch.type, patch.param1)) return {};
-    const auto net = netOf<dvec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, 16), points);
-    const std::vector<dvec3> vectors = areaVectors(net);
+    const auto control = controlPoints<dvec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, 16), points);
+    const std::vector<dvec3> vectors = areaVectors(control);
     if (pyramid == nullptr) return boundsOf(vectors, 0);
     TextureSlopes texture;
     Box<vec2> box{vec2(0), vec2(1)};
@@ -251,10 +252,10 @@ NormalBounds boundsOfPatch(const Surface& surface, const Patch& patch, std::span
         const auto indices = std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, 16);
         const std::span<const vec2> texPoints = surface.texPoints;
         box = patchBox<vec2>(indices, texPoints, patch.texParam1);
-        texture = slopesOf(netOf<dvec2>(indices, texPoints));
+        texture = slopesOf(controlPoints<dvec2>(indices, texPoints));
     }
     const Range heights = pyramid->range(box.lower, box.upper);
-    return boundsOf(vectors, displacementBall(lengthsOf(net), boundsOf(vectors, 0).along, heights, texture));
+    return boundsOf(vectors, displacementBall(lengthsOf(control), boundsOf(vectors, 0).along, heights, texture));
 }
 
 } // namespace

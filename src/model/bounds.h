@@ -42,10 +42,11 @@ private:
 };
 
 /// The largest |h| on each face; 0 for holes and without a map.
-std::vector<float> faceReaches(const Surface& surface, const HeightMap* map, const HeightPyramid& pyramid);
+std::vector<float> faceHeightBounds(const Surface& surface, const HeightMap* map, const HeightPyramid& pyramid);
 
 /// A box around each displaced face (empty for holes): the patches lie in the hull of their control points.
-std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points, std::span<const float> reaches);
+std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points,
+                               std::span<const float> heightBounds);
 
 /// Bounds of the displaced normals m = q_u x q_v of a face, not unit: along `axis` at least `along`, across it at most
 /// `across`. A face whose normals are not bounded has along = 0.

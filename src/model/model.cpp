@@ -3,7 +3,6 @@
 #include <cstring>
 
 #include "model/bounds.h"
-#include "model/dice_table.h"
 #include "model/stages.h"
 
 namespace relief {
@@ -82,16 +81,16 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     const Surface& s = *desc.surface;
     const SurfaceRecords records = recordsOf(s);
     firstFace_ = records.firstFace, firstPatch_ = records.firstPatch, firstEdge_ = records.firstEdge;
-    firstCorner_ = records.firstCorner, firstTouch_ = records.firstTouch;
-    hasWideNets_ = records.hasWideNets;
+    firstCorner_ = records.firstCorner, firstIncidence_ = records.firstIncidence;
+    hasWideIndices_ = records.hasWideIndices;
     hasStraightCorners_ = records.hasStraightCorners;
     records_ =
         uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(records.words)));
     words_ = uploadWords(device, "tree", s.tree);
 
     const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
-    faceReaches_ = relief::faceReaches(s, desc.height, *heightPyramid_);
-    faceBounds_ = relief::faceBounds(s, refined, faceReaches_);
+    faceHeightBounds_ = relief::faceHeightBounds(s, desc.height, *heightPyramid_);
+    faceBounds_ = relief::faceBounds(s, refined, faceHeightBounds_);
     if (enclosesVolume(s))
         normalBounds_ = relief::normalBounds(s, refined, desc.height != nullptr ? heightPyramid_.get() : nullptr);
     std::vector<vec4> points;
@@ -138,7 +137,7 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
     indexCount_ = std::uint32_t(mesh.indices.size());
     vertexCount_ = std::uint32_t(mesh.positions.size());
     hasTexCoords_ = !mesh.texCoords.empty();
-    heightReach_ = 1;
+    heightBound_ = 1;
     isDense_ = true;
 }
 
@@ -156,7 +155,7 @@ void Model::uploadMaps(Device& device, const ModelDesc& desc) {
         mapFormat_ = map.format;
         mapSize_ = {map.width, map.height};
         const WordScale scale = wordScale(map);
-        heightMid_ = float(scale.mid), heightScale_ = float(scale.scale), heightReach_ = float(map.reach());
+        heightMid_ = float(scale.mid), heightScale_ = float(scale.scale), heightBound_ = float(map.heightBound());
         wrap_ = map.wrap;
     } else {
         heights_ = uploadWords(device, "no height map", {});
@@ -184,9 +183,9 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     scene.firstPatch = firstPatch_;
     scene.firstEdge = firstEdge_;
     scene.firstCorner = firstCorner_;
-    scene.firstTouch = firstTouch_;
+    scene.firstIncidence = firstIncidence_;
     bindings[kBindRecords].texels = records_.view.get();
-    bindings[kBindWords].texels = words_.view.get();
+    bindings[kBindTree].texels = words_.view.get();
     bindings[kBindPoints].texels = points_.texels.view.get();
     scene.pointsNow = points_.now;
     scene.pointsBefore = points_.before;
@@ -199,7 +198,7 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
     scene.mapSize = mapSize_;
     scene.heightMid = heightMid_;
     scene.heightScale = heightScale_;
-    scene.heightReach = heightReach_;
+    scene.heightBound = heightBound_;
     scene.mapLevels = std::uint32_t(mapFirsts_.size());
     std::ranges::copy(mapFirsts_, scene.mapFirsts);
     scene.mapRepeats = wrap_ == Wrap::repeat ? 1 : 0;

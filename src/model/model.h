@@ -14,10 +14,6 @@ namespace relief {
 
 // --- models on the device -----------------------------------------------------------------------------------------
 
-/// The triangles that the grid path draws at `rate` segments an edge, by the reference evaluator, with full normals;
-/// faces share no vertices. For surfaces of four-sided faces.
-DenseMesh denseMesh(const ReferenceSurface& surface, const HeightMap* map, int rate);
-
 struct ModelDesc {
     const Surface* surface = nullptr; ///< a subdivision surface with its posed cage points ...
     std::span<const vec3> cagePositions;
@@ -26,15 +22,8 @@ struct ModelDesc {
     const Image* albedo = nullptr;    ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
-struct DiceTable;
 class HeightPyramid;
 struct NormalBounds;
-
-/// An edge on the height map, at its owner.
-struct EdgeOnMap {
-    float texels = 0;      ///< length
-    float heightRange = 0; ///< highest less lowest along it, from bounds: cage units
-};
 
 /// Points that patches are made of, one pose after another in a texel buffer: where each begins.
 struct PointSets {
@@ -58,6 +47,8 @@ public:
     /// n-gons.
     [[nodiscard]] std::vector<float> uniformRates(float rate) const;
 
+    /// Lives as long as the model: what others derive from it and keep is theirs to drop after that.
+    [[nodiscard]] const std::shared_ptr<const int>& identity() const { return identity_; }
     [[nodiscard]] bool isDense() const { return isDense_; }
     [[nodiscard]] const Buffer& indices() const { return indices_; }          ///< of a dense mesh
     [[nodiscard]] const Buffer& meshVertices() const { return mesh_.buffer; } ///< position with height, normal
@@ -71,20 +62,16 @@ public:
     /// Boxes around displaced faces; empty ones for holes.
     [[nodiscard]] const std::vector<Bounds>& faceBounds() const { return faceBounds_; }
     /// Largest |h| on each face, cage units.
-    [[nodiscard]] const std::vector<float>& faceReaches() const { return faceReaches_; }
+    [[nodiscard]] const std::vector<float>& faceHeightBounds() const { return faceHeightBounds_; }
     /// Whether heights grow with the surface since a rest pose.
     [[nodiscard]] bool stretches() const { return points_.rest.has_value(); }
     /// Whether it holds the pose that motion is measured from.
     [[nodiscard]] bool hasMotion() const { return points_.before != points_.now; }
-    /// What edges are on the height map; measured when first asked for (empty then).
-    [[nodiscard]] std::vector<EdgeOnMap>& edgesOnMap() const { return edgesOnMap_; }
     [[nodiscard]] const HeightPyramid& heightPyramid() const { return *heightPyramid_; }
     /// Whether the points of a leaf patch and its texture coordinates are both bicubic.
     [[nodiscard]] bool isRegular(std::uint32_t patch) const { return patchIsRegular_[patch]; }
-    /// Which vertices a diced mesh has; made when first asked for.
-    [[nodiscard]] const DiceTable& diceTable(Device& device) const;
     [[nodiscard]] std::size_t cornerCount() const { return cornerFlags_.size(); }
-    [[nodiscard]] const std::vector<std::uint32_t>& cornerFlags() const { return cornerFlags_; } ///< kPlace...
+    [[nodiscard]] const std::vector<std::uint32_t>& cornerFlags() const { return cornerFlags_; } ///< kOn...
     [[nodiscard]] int sideCount() const { return sideCount_; }
     [[nodiscard]] bool isTriangles() const { return sideCount_ == 3; }
     [[nodiscard]] bool hasTexCoords() const { return hasTexCoords_; }
@@ -93,7 +80,7 @@ public:
     [[nodiscard]] Wrap wrap() const { return wrap_; }
     [[nodiscard]] MapFormat mapFormat() const { return mapFormat_; }
     /// Whether control points are numbered with 32 bits (shared/records.h).
-    [[nodiscard]] bool hasWideNets() const { return hasWideNets_; }
+    [[nodiscard]] bool hasWideIndices() const { return hasWideIndices_; }
     [[nodiscard]] bool hasStraightCorners() const { return hasStraightCorners_; }
     /// Bytes of the height map on the device, with its mips.
     [[nodiscard]] std::uint64_t heightBytes() const { return hasHeight() ? heights_.buffer.bytes : 0; }
@@ -109,15 +96,14 @@ private:
     TexelBuffer records_, words_, texPoints_, mesh_, meshTexCoords_, heights_;
     Buffer indices_;
     Texture albedoMap_;
-    std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstTouch_ = 0;
+    std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstIncidence_ = 0;
     std::vector<Face> faces_;
     std::vector<Edge> edges_;
     std::vector<std::uint32_t> tree_;
-    mutable std::unique_ptr<DiceTable> diceTable_;
-    mutable std::vector<EdgeOnMap> edgesOnMap_;
+    std::shared_ptr<const int> identity_ = std::make_shared<const int>(0);
     std::unique_ptr<HeightPyramid> heightPyramid_;
     std::vector<Bounds> faceBounds_;
-    std::vector<float> faceReaches_;
+    std::vector<float> faceHeightBounds_;
     std::vector<NormalBounds> normalBounds_;
     std::vector<std::uint32_t> mapFirsts_; ///< where the words of each level begin
     std::vector<bool> edgeIsHalf_, patchIsRegular_;
@@ -125,203 +111,12 @@ private:
     std::uint32_t indexCount_ = 0, vertexCount_ = 0;
     int sideCount_ = 4;
     glm::ivec2 mapSize_{0};
-    float heightMid_ = 0, heightScale_ = 0, heightReach_ = 0;
+    float heightMid_ = 0, heightScale_ = 0, heightBound_ = 0;
     MapFormat mapFormat_ = MapFormat::real;
     Wrap wrap_ = Wrap::repeat;
-    bool isDense_ = false, hasWideNets_ = false, hasStraightCorners_ = false, hasTexCoords_ = false, hasAlbedo_ = false;
+    bool isDense_ = false, hasWideIndices_ = false, hasStraightCorners_ = false, hasTexCoords_ = false,
+         hasAlbedo_ = false;
     std::uint64_t byteCount_ = 0;
-};
-
-// --- rates --------------------------------------------------------------------------------------------------------
-
-enum class Path { tessellation, grid, dice }; ///< ways to make the triangles; dense meshes have their own
-enum class Spacing { equal, fractional };
-enum class NormalKind { limit, firstOrder, full };
-
-struct TriangleOptions {
-    Path path = Path::tessellation;
-    std::optional<int> rate; ///< segments a cage edge, the same for all ...
-    double edgePixels = 2;   ///< ... or as many as make segments this long on screen
-    Spacing spacing = Spacing::equal;
-    bool filtersHeights = true; ///< heights from the mips whose texels are as large as the segments
-    NormalKind normal = NormalKind::full;
-    /// Tessellation: vertices that one draw may make; default what suits the device.
-    std::optional<std::uint32_t> tessellatedVerticesPerDraw;
-    std::optional<std::uint64_t> memory; ///< dicing: bytes that a mesh may take; default half of the device's heap
-};
-
-/// What rates are measured from.
-struct View {
-    vec3 eye{0};
-    float nearDistance = 0;
-    float pixelsAtUnitDistance = 1; ///< of something one unit long at one unit's distance
-};
-
-/// One rate an edge: whole numbers of segments, or with fractional spacing any number from 1.
-struct EdgeRates {
-    std::vector<float> rates;
-    Spacing spacing = Spacing::equal;
-    std::vector<float> cornerLevels; ///< mip level of the height map at each corner; empty: 0 everywhere
-
-    [[nodiscard]] bool hasMips() const { return !cornerLevels.empty(); }
-
-    [[nodiscard]] std::uint32_t segments(std::uint32_t edge) const;
-};
-
-/// Measures displaced edges on the device. Shaders are compiled once for a kind of model.
-class EdgeRater {
-public:
-    explicit EdgeRater(Device& device);
-    ~EdgeRater();
-
-    /// Throws Failure::usage for a rate or path that the device cannot do. `milliseconds`: device time, if measured.
-    EdgeRates rates(const Model& model, const TriangleOptions& options, const View& view,
-                    double* milliseconds = nullptr);
-
-private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
-};
-
-/// Segments around and inside a face.
-struct FaceSegments {
-    std::uint32_t sides[4] = {};
-    std::uint32_t u = 1, v = 1; ///< along u and v; of a triangle both the largest
-    float rateU = 1, rateV = 1; ///< the larger of the two sides along u, and along v
-    float largestRate = 1;
-};
-FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint32_t face);
-
-// --- draws --------------------------------------------------------------------------------------------------------
-
-/// One a face: false where it is hidden with certainty: its box is outside what `worldToClip` shows, or all its normals
-/// point away and the near plane cuts nothing of a closed surface.
-std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip, const View& view);
-
-/// Faces drawn together, and the calls that draw them.
-struct DrawBatch {
-    std::uint32_t columns = 0, rows = 0;        ///< grid: segments along u and v of every face in it
-    std::uint32_t firstFace = 0, faceCount = 0; ///< into DrawPlan::faces
-};
-
-struct DrawPlan {
-    std::vector<std::uint32_t> faces;
-    std::vector<DrawBatch> batches; ///< those of visible faces first
-    std::size_t visibleBatchCount = 0;
-    std::uint64_t visibleFaceCount = 0;
-    std::uint64_t triangleCount = 0;
-    std::uint64_t vertexCount = 0; ///< distinct samples of the surface
-    std::uint32_t maxRate = 0;
-};
-
-/// Splits faces into draws of at most `verticesPerDraw` tessellated vertices, in order of faces; the draws of visible
-/// faces come first, and without `isVisible` all faces are.
-DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw,
-                     std::span<const char> isVisible = {});
-/// Groups faces by their segments along u and v.
-DrawPlan planGrids(const Model& model, const EdgeRates& rates, std::span<const char> isVisible = {});
-/// Triangles that the fixed-function tessellator, or the dicer, makes of one patch with these side rates (3 or 4 of
-/// them).
-std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> sideRates);
-std::uint64_t dicedTriangles(std::span<const std::uint32_t> sideRates);
-
-// --- diced meshes -------------------------------------------------------------------------------------------------
-
-/// An indexed mesh on the device: every distinct sample of the surface once, repeated with the same position bits only
-/// where normals or texture coordinates part.
-struct DicedMesh {
-    TexelBuffer vertices;                      ///< two texels each: position and height, normal
-    TexelBuffer texCoords;                     ///< empty unless asked for
-    Buffer indices;                            ///< three 32-bit indices a triangle, face after face
-    std::vector<std::uint32_t> firstTriangles; ///< of each face; one more at the end
-    std::vector<std::uint32_t> faceRates;      ///< the largest around each face
-    std::vector<std::uint32_t> runFirsts;      ///< first vertex of each run along edges; one more at the end
-    std::uint64_t sampleCount = 0;             ///< distinct samples
-    std::uint32_t vertexCount = 0, triangleCount = 0, maxRate = 0;
-    bool hasTexCoords = false;
-    std::uint64_t byteCount = 0;
-    double milliseconds = 0;       ///< on the device; 0 where it cannot time
-    double vertexMilliseconds = 0; ///< without the triangles; only where DiceOptions asks for it
-};
-
-struct DiceOptions {
-    NormalKind normal = NormalKind::full;
-    bool wantsTexCoords = false;
-    std::optional<std::uint64_t> memory;
-    bool timesVertices = false; ///< apart from the triangles: one more wait for the device
-};
-
-class Dicer {
-public:
-    explicit Dicer(Device& device);
-    ~Dicer();
-
-    /// Throws Failure::device when the mesh would take more than the memory allowed, before anything is allocated.
-    DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
-    /// The same read back.
-    DenseMesh diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
-
-    struct Parts;
-
-private:
-    std::unique_ptr<Parts> parts_;
-};
-
-/// The same on the host: ready to be written.
-DenseMesh readBack(Device& device, const DicedMesh& mesh);
-
-// --- captured triangles -------------------------------------------------------------------------------------------
-
-/// The triangles that a path makes, as the device made them.
-struct CapturedMesh {
-    std::vector<vec3> positions;
-    std::vector<char> isOnBoundary;     ///< one a vertex: it lies on an edge of the cage that has one drawn face
-    std::vector<std::uint32_t> indices; ///< three a triangle
-};
-
-/// Reads triangles back. Shaders are compiled once for a kind of model.
-class Capturer {
-public:
-    explicit Capturer(Device& device);
-    ~Capturer();
-
-    /// Tessellation: by transform feedback (Failure::usage where the device has none); grid: stored by the vertex
-    /// shader; dice: read back.
-    CapturedMesh capture(const Model& model, const TriangleOptions& options, const EdgeRates& rates);
-
-    struct Parts;
-
-private:
-    std::unique_ptr<Parts> parts_;
-};
-
-/// How many triangles a Capturer has to find.
-std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates);
-
-/// Segments of all edges of the cage that have one drawn face.
-std::uint64_t boundarySegments(const Model& model, const EdgeRates& rates);
-
-// --- single points ------------------------------------------------------------------------------------------------
-
-struct SampleOptions {
-    std::size_t firstRow = 0; ///< number of the first query, for messages
-    NormalKind normal = NormalKind::full;
-    bool isGenericBasis = false; ///< OpenSubdiv's own basis for all patches: slower, the check of the others
-};
-
-/// The device's own frames at single points. Shaders are compiled once for a kind of model.
-class SurfaceSampler {
-public:
-    explicit SurfaceSampler(Device& device);
-    ~SurfaceSampler();
-
-    /// Throws Failure::input for a face out of range, a hole, or (u,v) outside its face.
-    std::vector<SampleResult> sample(const Model& model, std::span<const SampleQuery> queries,
-                                     const SampleOptions& options = {});
-
-private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
 };
 
 } // namespace relief

@@ -9,16 +9,18 @@
 namespace relief {
 namespace {
 
-constexpr std::uint32_t kMostFaces = 1u << 28, kMostCorners = 1u << 30, kMostEdgeTouches = 1u << 24;
+constexpr std::uint32_t kMostFaces = 1u << 28, kMostCorners = 1u << 30, kMostEdgeIncidences = 1u << 24;
 
 void append(std::vector<std::uint32_t>& words, std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t w) {
     words.insert(words.end(), {x, y, z, w});
 }
 
 /// face:28 side:2 flags:2
-std::uint32_t ownerWord(const Touch& owner, std::uint32_t flags) { return owner.face | owner.side << 28 | flags << 30; }
+std::uint32_t ownerWord(const Incidence& owner, std::uint32_t flags) {
+    return owner.face | owner.side << 28 | flags << 30;
+}
 
-std::uint32_t spanOf(const Touch& owner) {
+std::uint32_t spanOf(const Incidence& owner) {
     if (owner.start == 0 && owner.end == 1) return kSpanWhole;
     if (owner.start == 0 && owner.end == 0.5f) return kSpanFirstHalf;
     if (owner.start == 0.5f && owner.end == 1) return kSpanSecondHalf;
@@ -37,42 +39,43 @@ void appendEdges(std::vector<std::uint32_t>& words, const Surface& surface) {
     for (std::uint32_t i = 0; i < surface.edges.size(); ++i) {
         const Edge& edge = surface.edges[i];
         append(words, ownerWord(edge.owner, edge.flags), edge.corners[0] | spanOf(edge.owner) << 30,
-               edge.corners[1] | partnerOf(surface, i) << 30, edge.touchCount > 0 ? edge.firstTouch : kNoTouch);
+               edge.corners[1] | partnerOf(surface, i) << 30,
+               edge.incidenceCount > 0 ? edge.firstIncidence : kNoIncidence);
     }
 }
 
 void appendCorners(std::vector<std::uint32_t>& words, const Surface& surface) {
     for (const Corner& corner : surface.corners)
-        append(words, ownerWord(corner.owner, corner.flags), (corner.owner.start > 0 ? 1 : 0) | corner.touchCount << 1,
-               corner.firstTouch, 0);
+        append(words, ownerWord(corner.owner, corner.flags),
+               (corner.owner.start > 0 ? 1 : 0) | corner.incidenceCount << 1, corner.firstIncidence, 0);
 }
 
-void appendTouches(std::vector<std::uint32_t>& words, const Surface& surface) {
+void appendIncidences(std::vector<std::uint32_t>& words, const Surface& surface) {
     std::vector<std::uint32_t> counts = surface.sectorFaces;
     for (const Edge& edge : surface.edges)
-        if (edge.touchCount > 0) counts[edge.firstTouch] = edge.touchCount;
-    for (std::size_t i = 0; i < surface.touches.size(); ++i) {
-        const Touch& touch = surface.touches[i];
-        append(words, touch.face, touch.side | counts[i] << 8, std::bit_cast<std::uint32_t>(touch.start),
-               std::bit_cast<std::uint32_t>(touch.end));
+        if (edge.incidenceCount > 0) counts[edge.firstIncidence] = edge.incidenceCount;
+    for (std::size_t i = 0; i < surface.incidences.size(); ++i) {
+        const Incidence& incidence = surface.incidences[i];
+        append(words, incidence.face, incidence.side | counts[i] << 8, std::bit_cast<std::uint32_t>(incidence.start),
+               std::bit_cast<std::uint32_t>(incidence.end));
     }
 }
 
 /// Numbers of control points, in texels that begin with whole ones.
-class NetWriter {
+class PatchWriter {
 public:
-    explicit NetWriter(const Surface& surface) : surface_(surface) {
+    explicit PatchWriter(const Surface& surface) : surface_(surface) {
         for (const Patch& patch : surface.patches)
             isWide_ = isWide_ || isFar(pointsOf(patch)) || isFar(texPointsOf(patch));
     }
 
     [[nodiscard]] bool isWide() const { return isWide_; }
 
-    /// The patches, and after them their nets.
+    /// The patches, and after them their patches.
     void append(std::vector<std::uint32_t>& words) const {
         auto texel = std::uint32_t(words.size() / 4 + surface_.patches.size());
         for (const Patch& patch : surface_.patches) {
-            const Net points = pointsOf(patch), texPoints = texPointsOf(patch);
+            const PointIndices points = pointsOf(patch), texPoints = texPointsOf(patch);
             const std::uint32_t texels = texelsOf(points);
             relief::append(words, texel, baseOf(points), baseOf(texPoints),
                            patch.type | patch.texType << 4 | (patch.param1 >> 7 & 31) << 8 |
@@ -80,41 +83,41 @@ public:
             texel += texels + texelsOf(texPoints);
         }
         for (const Patch& patch : surface_.patches)
-            for (const Net& net : {pointsOf(patch), texPointsOf(patch)}) appendNet(words, net);
+            for (const PointIndices& indices : {pointsOf(patch), texPointsOf(patch)}) appendIndices(words, indices);
     }
 
 private:
-    using Net = std::span<const std::uint32_t>;
+    using PointIndices = std::span<const std::uint32_t>;
 
-    [[nodiscard]] Net pointsOf(const Patch& patch) const {
+    [[nodiscard]] PointIndices pointsOf(const Patch& patch) const {
         const int cornerPoints = 2 * std::popcount(patch.straightCorners);
-        return Net(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type) + cornerPoints);
+        return PointIndices(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type) + cornerPoints);
     }
-    [[nodiscard]] Net texPointsOf(const Patch& patch) const {
+    [[nodiscard]] PointIndices texPointsOf(const Patch& patch) const {
         if (!surface_.hasTexCoords()) return {};
-        return Net(surface_.texPatchPoints).subspan(patch.texFirstPoint, patchSize(patch.texType));
+        return PointIndices(surface_.texPatchPoints).subspan(patch.texFirstPoint, patchSize(patch.texType));
     }
-    static bool isFar(const Net& net) {
-        if (net.empty()) return false;
-        const auto [lowest, highest] = std::ranges::minmax(net);
+    static bool isFar(const PointIndices& indices) {
+        if (indices.empty()) return false;
+        const auto [lowest, highest] = std::ranges::minmax(indices);
         return highest - lowest > 0xffff;
     }
-    [[nodiscard]] std::uint32_t baseOf(const Net& net) const {
-        return isWide_ || net.empty() ? 0 : std::ranges::min(net);
+    [[nodiscard]] std::uint32_t baseOf(const PointIndices& indices) const {
+        return isWide_ || indices.empty() ? 0 : std::ranges::min(indices);
     }
-    [[nodiscard]] std::uint32_t texelsOf(const Net& net) const {
+    [[nodiscard]] std::uint32_t texelsOf(const PointIndices& indices) const {
         const std::size_t perTexel = isWide_ ? 4 : 8;
-        return std::uint32_t((net.size() + perTexel - 1) / perTexel);
+        return std::uint32_t((indices.size() + perTexel - 1) / perTexel);
     }
-    void appendNet(std::vector<std::uint32_t>& words, const Net& net) const {
+    void appendIndices(std::vector<std::uint32_t>& words, const PointIndices& indices) const {
         const std::size_t first = words.size();
-        const std::uint32_t base = baseOf(net);
-        words.resize(first + 4 * std::size_t(texelsOf(net)), 0);
-        for (std::size_t k = 0; k < net.size(); ++k) {
+        const std::uint32_t base = baseOf(indices);
+        words.resize(first + 4 * std::size_t(texelsOf(indices)), 0);
+        for (std::size_t k = 0; k < indices.size(); ++k) {
             if (isWide_)
-                words[first + k] = net[k];
+                words[first + k] = indices[k];
             else
-                words[first + k / 2] |= (net[k] - base) << (16 * (k % 2));
+                words[first + k / 2] |= (indices[k] - base) << (16 * (k % 2));
         }
     }
 
@@ -125,28 +128,30 @@ private:
 } // namespace
 
 SurfaceRecords recordsOf(const Surface& surface) {
-    const auto mostTouches = [](std::uint32_t most, const Edge& edge) { return std::max(most, edge.touchCount); };
+    const auto mostIncidences = [](std::uint32_t most, const Edge& edge) {
+        return std::max(most, edge.incidenceCount);
+    };
     if (surface.faces.size() >= kMostFaces || surface.corners.size() >= kMostCorners ||
-        std::accumulate(surface.edges.begin(), surface.edges.end(), 0u, mostTouches) >= kMostEdgeTouches)
+        std::accumulate(surface.edges.begin(), surface.edges.end(), 0u, mostIncidences) >= kMostEdgeIncidences)
         fail(Failure::input,
              "a surface of {} faces and {} corners is more than {} faces, {} corners or {} faces an edge",
-             surface.faces.size(), surface.corners.size(), kMostFaces, kMostCorners, kMostEdgeTouches);
+             surface.faces.size(), surface.corners.size(), kMostFaces, kMostCorners, kMostEdgeIncidences);
     SurfaceRecords records;
     std::vector<std::uint32_t>& words = records.words;
     const auto texel = [&] { return std::uint32_t(words.size() / 4); };
     records.firstFace = appendRecords<kFaceTexels>(words, surface.faces);
-    const NetWriter nets(surface);
+    const PatchWriter patches(surface);
     records.firstPatch = texel();
-    records.hasWideNets = nets.isWide();
-    nets.append(words);
+    records.hasWideIndices = patches.isWide();
+    patches.append(words);
     records.hasStraightCorners =
         std::ranges::any_of(surface.patches, [](const Patch& p) { return p.straightCorners != 0; });
     records.firstEdge = texel();
     appendEdges(words, surface);
     records.firstCorner = texel();
     appendCorners(words, surface);
-    records.firstTouch = texel();
-    appendTouches(words, surface);
+    records.firstIncidence = texel();
+    appendIncidences(words, surface);
     return records;
 }
 

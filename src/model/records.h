@@ -22,8 +22,8 @@ std::uint32_t appendRecords(std::vector<std::uint32_t>& words, const std::vector
 /// The words of shared/records.h, and the texel where each table begins.
 struct SurfaceRecords {
     std::vector<std::uint32_t> words;
-    std::uint32_t firstFace = 0, firstPatch = 0, firstEdge = 0, firstCorner = 0, firstTouch = 0;
-    bool hasWideNets = false, hasStraightCorners = false;
+    std::uint32_t firstFace = 0, firstPatch = 0, firstEdge = 0, firstCorner = 0, firstIncidence = 0;
+    bool hasWideIndices = false, hasStraightCorners = false;
 };
 SurfaceRecords recordsOf(const Surface& surface);
 

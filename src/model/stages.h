@@ -1,8 +1,6 @@
 // What every shader stage is given: constants, push constants, set 0. Used here and by frame.
 #pragma once
 
-#include <map>
-
 #include "model/model.h"
 #include "model/records.h"
 #include "model/shaders.h"
@@ -33,7 +31,7 @@ struct ShaderConstants {
     bool stretches = false; ///< heights grow with the surface
     bool hasMotion = false; ///< layers: the surface was in another pose before
     MapFormat mapFormat = MapFormat::real;
-    bool hasWideNets = false;
+    bool hasWideIndices = false;
     bool hasStraightCorners = false;
 
     [[nodiscard]] std::vector<std::uint32_t> values() const {
@@ -50,7 +48,7 @@ struct ShaderConstants {
                 stretches,
                 hasMotion,
                 std::uint32_t(mapFormat),
-                hasWideNets,
+                hasWideIndices,
                 hasStraightCorners};
     }
 };
@@ -66,56 +64,14 @@ TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const
 Buffer makeSceneBuffer(Device& device);
 void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene);
 
-/// Passes that make no picture: everything of a scene and of set 0 up to the samples of a picture.
-class GeometryInputs {
-public:
-    explicit GeometryInputs(Device& device);
-
-    static PipelineLayoutDesc layout();
-    /// Describes the model; what it does not fill is bound all the same: Mesa 22.3's CPU driver walks every descriptor
-    /// of a set, whether or not a shader reads it.
-    void fill(const Model& model, Scene& scene, std::span<Binding> bindings) const;
-    const Buffer& scene() const { return scene_; }
-
-private:
-    Buffer scene_;
-    TexelBuffer none_;
-    Owned<VkSampler> sampler_;
-};
-
-/// Compute pipelines by shader and constants, made when first asked for.
-class ComputeStages {
-public:
-    explicit ComputeStages(Device& device) : device_(device) {}
-    const Pipeline& pipeline(const char* file, const Model& model, const ShaderConstants& constants);
-
-private:
-    Device& device_;
-    std::map<std::pair<std::string, std::vector<std::uint32_t>>, Pipeline> pipelines_;
-};
-
-/// What shaders read of rates: the rates themselves and the levels of the height map.
-struct RateTexels {
-    TexelBuffer rates, levels;
-};
-RateTexels uploadRates(Device& device, const Model& model, const EdgeRates& rates);
-/// Binds them and fills their part of the scene.
-void useRates(const Model& model, const EdgeRates& rates, const RateTexels& texels, Scene& scene,
-              std::span<Binding> bindings);
-
 inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
     return {.hasTexCoords = model.hasTexCoords(),
             .hasHeight = model.hasHeight(),
             .normal = normal,
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),
-            .hasWideNets = model.hasWideNets(),
+            .hasWideIndices = model.hasWideIndices(),
             .hasStraightCorners = model.hasStraightCorners()};
 }
-
-/// Two triangles a cell, row after row: the first rows of a larger grid with as many columns.
-std::vector<std::uint32_t> gridIndices(std::uint32_t columns, std::uint32_t rows);
-/// The same for triangles with n segments a side: one triangle in the last cell of a row.
-std::vector<std::uint32_t> triangleGridIndices(std::uint32_t n);
 
 } // namespace relief

@@ -75,13 +75,13 @@ FaceSupports::FaceSupports(const Surface& surface) {
 
 /// A point sum_i w_i p_i with sum_i w_i = 1 is at most sum_i |w_i| half boxes away from the middle of the box of all
 /// p_i.
-std::vector<Bounds> FaceSupports::bounds(std::span<const vec3> cagePositions, std::span<const float> reaches) const {
+std::vector<Bounds> FaceSupports::bounds(std::span<const vec3> cagePositions, std::span<const float> heightBounds) const {
     std::vector<Bounds> all(spreads_.size());
     for (std::size_t face = 0; face < all.size(); ++face) {
         if (firsts_[face] == firsts_[face + 1]) continue;
         Bounds hull;
         for (std::uint32_t k = firsts_[face]; k < firsts_[face + 1]; ++k) hull.add(dvec3(cagePositions[points_[k]]));
-        const dvec3 half = 0.5 * (hull.upper - hull.lower) * double(spreads_[face]) + double(reaches[face]);
+        const dvec3 half = 0.5 * (hull.upper - hull.lower) * double(spreads_[face]) + double(heightBounds[face]);
         all[face].add(hull.center() - half);
         all[face].add(hull.center() + half);
     }

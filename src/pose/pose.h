@@ -37,8 +37,8 @@ class FaceSupports {
 public:
     explicit FaceSupports(const Surface& surface);
 
-    /// `reaches`: the largest height of each face (Model::faceReaches). Boxes of holes are empty.
-    [[nodiscard]] std::vector<Bounds> bounds(std::span<const vec3> cagePositions, std::span<const float> reaches) const;
+    /// `heightBounds`: the largest height of each face (Model::faceHeightBounds). Boxes of holes are empty.
+    [[nodiscard]] std::vector<Bounds> bounds(std::span<const vec3> cagePositions, std::span<const float> heightBounds) const;
 
 private:
     std::vector<std::uint32_t> firsts_; ///< into points_, one more at the end

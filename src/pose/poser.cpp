@@ -228,9 +228,9 @@ void Poser::pose(const Pose& now, const Pose* before) {
     parts.stats.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
-    std::vector<float> reaches = parts.model.faceReaches();
-    for (float& reach : reaches) reach *= parts.mostStretch;
-    std::vector<Bounds> boxes = parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), reaches);
+    std::vector<float> heightBounds = parts.model.faceHeightBounds();
+    for (float& reach : heightBounds) reach *= parts.mostStretch;
+    std::vector<Bounds> boxes = parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
     parts.bounds = {};
     for (const Bounds& box : boxes) {
         if (box.isEmpty()) continue;

@@ -115,33 +115,33 @@ private:
     // --- corners
 
     /// A face at a corner, and how many drawn faces its smooth sector has there.
-    struct CornerTouch {
-        Touch touch;
+    struct CornerIncidence {
+        Incidence incidence;
         std::uint32_t sectorFaces;
     };
 
     /// Adds a corner that belongs to the lowest face.
-    std::uint32_t addCorner(std::vector<CornerTouch>& touches, bool isAgreed) {
-        std::ranges::stable_sort(touches, {}, [](const CornerTouch& t) { return t.touch.face; });
-        Corner corner{touches.front().touch, std::uint32_t(surface_.touches.size()), 0, 0};
-        if (isAgreed) corner.touchCount = std::uint32_t(touches.size());
-        for (std::uint32_t i = 0; i < corner.touchCount; ++i) {
-            surface_.touches.push_back(touches[i].touch);
-            surface_.sectorFaces.push_back(touches[i].sectorFaces);
+    std::uint32_t addCorner(std::vector<CornerIncidence>& incidences, bool isAgreed) {
+        std::ranges::stable_sort(incidences, {}, [](const CornerIncidence& t) { return t.incidence.face; });
+        Corner corner{incidences.front().incidence, std::uint32_t(surface_.incidences.size()), 0, 0};
+        if (isAgreed) corner.incidenceCount = std::uint32_t(incidences.size());
+        for (std::uint32_t i = 0; i < corner.incidenceCount; ++i) {
+            surface_.incidences.push_back(incidences[i].incidence);
+            surface_.sectorFaces.push_back(incidences[i].sectorFaces);
         }
         surface_.corners.push_back(corner);
         return std::uint32_t(surface_.corners.size() - 1);
     }
 
-    static void sortByFace(std::vector<Touch>& touches) {
-        std::stable_sort(touches.begin(), touches.end(),
-                         [](const Touch& a, const Touch& b) { return a.face < b.face; });
+    static void sortByFace(std::vector<Incidence>& incidences) {
+        std::stable_sort(incidences.begin(), incidences.end(),
+                         [](const Incidence& a, const Incidence& b) { return a.face < b.face; });
     }
 
-    std::uint32_t addTouches(const std::vector<Touch>& touches) {
-        surface_.touches.insert(surface_.touches.end(), touches.begin(), touches.end());
-        surface_.sectorFaces.resize(surface_.touches.size(), 1);
-        return std::uint32_t(touches.size());
+    std::uint32_t addIncidences(const std::vector<Incidence>& incidences) {
+        surface_.incidences.insert(surface_.incidences.end(), incidences.begin(), incidences.end());
+        surface_.sectorFaces.resize(surface_.incidences.size(), 1);
+        return std::uint32_t(incidences.size());
     }
 
     /// Drawn faces of the smooth sector of each face around the vertex, in the order of its faces. Faces that share a
@@ -170,44 +170,44 @@ private:
             const bool isAgreed = isAgreedVertex(vertex);
             std::vector<std::uint32_t> sectors(faces.size(), 1);
             if (isAgreed) sectors = sectorsAround(vertex);
-            std::vector<CornerTouch> touches;
+            std::vector<CornerIncidence> incidences;
             for (int i = 0; i < faces.size(); ++i) {
                 if (level_.IsFaceHole(faces[i])) continue;
                 const int corner = isNgon(faces[i]) ? 0 : positions[i];
-                touches.push_back({{quadOf(faces[i], positions[i]), std::uint32_t(corner), 0, 0}, sectors[i]});
+                incidences.push_back({{quadOf(faces[i], positions[i]), std::uint32_t(corner), 0, 0}, sectors[i]});
             }
-            if (!touches.empty()) cornerOfVertex_[vertex] = addCorner(touches, isAgreed);
+            if (!incidences.empty()) cornerOfVertex_[vertex] = addCorner(incidences, isAgreed);
         }
     }
 
     /// The middle of a split edge is a corner of n-gons' quads and a point on the sides of quads.
     std::uint32_t addMiddleCorner(const std::vector<SideUse>& uses, bool isAgreed) {
-        std::vector<CornerTouch> touches;
+        std::vector<CornerIncidence> incidences;
         for (const SideUse& use : uses) {
             if (isNgon(use.face)) {
-                touches.push_back({{quadOf(use.face, use.side), 1, 0, 0}, 2});
-                touches.push_back({{quadOf(use.face, use.side + 1), 3, 0, 0}, 2});
+                incidences.push_back({{quadOf(use.face, use.side), 1, 0, 0}, 2});
+                incidences.push_back({{quadOf(use.face, use.side + 1), 3, 0, 0}, 2});
             } else {
-                touches.push_back({{quadOf(use.face, 0), std::uint32_t(use.side), 0.5F, 0.5F}, 1});
+                incidences.push_back({{quadOf(use.face, 0), std::uint32_t(use.side), 0.5F, 0.5F}, 1});
             }
         }
-        return addCorner(touches, isAgreed);
+        return addCorner(incidences, isAgreed);
     }
 
     // --- edges
 
-    void setSide(const Touch& touch, std::uint32_t edge, bool isReversed, std::uint32_t flags = 0) {
-        surface_.faces[touch.face].sides[touch.side] = edge | flags | (isReversed ? kSideReversed : 0);
+    void setSide(const Incidence& incidence, std::uint32_t edge, bool isReversed, std::uint32_t flags = 0) {
+        surface_.faces[incidence.face].sides[incidence.side] = edge | flags | (isReversed ? kSideReversed : 0);
     }
 
-    /// Adds an edge whose first touch is its owner.
-    void addEdge(std::vector<Touch> touches, std::uint32_t start, std::uint32_t end, std::uint32_t partner,
+    /// Adds an edge whose first incidence is its owner.
+    void addEdge(std::vector<Incidence> incidences, std::uint32_t start, std::uint32_t end, std::uint32_t partner,
                  const EdgeKind& kind) {
-        Edge edge{touches.front(), {start, end}, std::uint32_t(surface_.touches.size()), 0, partner, 0};
-        if (touches.size() == 1) edge.flags |= kPlaceOnBoundary;
-        if (kind.isSeam) edge.flags |= kPlaceOnSeam;
-        sortByFace(touches);
-        if (kind.isAgreed) edge.touchCount = addTouches(touches);
+        Edge edge{incidences.front(), {start, end}, std::uint32_t(surface_.incidences.size()), 0, partner, 0};
+        if (incidences.size() == 1) edge.flags |= kOnBoundary;
+        if (kind.isSeam) edge.flags |= kOnSeam;
+        sortByFace(incidences);
+        if (kind.isAgreed) edge.incidenceCount = addIncidences(incidences);
         surface_.edges.push_back(edge);
     }
 
@@ -215,20 +215,20 @@ private:
         const auto& uses = uses_[cageEdge];
         const auto edge = std::uint32_t(surface_.edges.size());
         const int start = startVertex(uses.front());
-        std::vector<Touch> touches;
+        std::vector<Incidence> incidences;
         for (const SideUse& use : uses) {
             const bool isReversed = startVertex(use) != start;
-            Touch touch{quadOf(use.face, 0), std::uint32_t(use.side), 0, 1};
-            if (isReversed) std::swap(touch.start, touch.end);
-            touches.push_back(touch);
-            setSide(touch, edge, isReversed);
+            Incidence incidence{quadOf(use.face, 0), std::uint32_t(use.side), 0, 1};
+            if (isReversed) std::swap(incidence.start, incidence.end);
+            incidences.push_back(incidence);
+            setSide(incidence, edge, isReversed);
         }
-        addEdge(touches, cornerOfVertex_[start], cornerOfVertex_[endVertex(uses.front())], edge,
+        addEdge(incidences, cornerOfVertex_[start], cornerOfVertex_[endVertex(uses.front())], edge,
                 {isAgreedEdge(cageEdge), isSeam(uses)});
     }
 
     /// Half 0 or 1 of a side in the direction of its face.
-    [[nodiscard]] Touch halfSide(const SideUse& use, int half) const {
+    [[nodiscard]] Incidence halfSide(const SideUse& use, int half) const {
         if (!isNgon(use.face))
             return {quadOf(use.face, 0), std::uint32_t(use.side), 0.5F * float(half), 0.5F * float(half + 1)};
         if (half == 0) return {quadOf(use.face, use.side), 0, 0, 1};
@@ -243,18 +243,18 @@ private:
         const std::uint32_t ends[] = {cornerOfVertex_[start], middle, cornerOfVertex_[endVertex(uses.front())]};
         const auto first = std::uint32_t(surface_.edges.size());
         for (int half = 0; half < 2; ++half) {
-            std::vector<Touch> touches;
+            std::vector<Incidence> incidences;
             for (const SideUse& use : uses) {
                 const bool isReversed = startVertex(use) != start;
-                Touch touch = halfSide(use, isReversed ? 1 - half : half);
-                if (isReversed) std::swap(touch.start, touch.end);
-                touches.push_back(touch);
+                Incidence incidence = halfSide(use, isReversed ? 1 - half : half);
+                if (isReversed) std::swap(incidence.start, incidence.end);
+                incidences.push_back(incidence);
                 if (isNgon(use.face))
-                    setSide(touch, first + half, isReversed);
+                    setSide(incidence, first + half, isReversed);
                 else
-                    setSide(touch, first, isReversed, kSideSplit);
+                    setSide(incidence, first, isReversed, kSideSplit);
             }
-            addEdge(touches, ends[half], ends[half + 1], first + 1 - half, kind);
+            addEdge(incidences, ends[half], ends[half + 1], first + 1 - half, kind);
         }
     }
 
@@ -267,14 +267,14 @@ private:
     /// The centre of an n-gon and the edges that run from its sides' middles to the centre.
     void addInside(int face) {
         const int size = sizeOf(face);
-        std::vector<CornerTouch> touches;
-        touches.reserve(size);
-        for (int i = 0; i < size; ++i) touches.push_back({{quadOf(face, i), 2, 0, 0}, 1});
-        const std::uint32_t center = addCorner(touches, isBilinear_);
+        std::vector<CornerIncidence> incidences;
+        incidences.reserve(size);
+        for (int i = 0; i < size; ++i) incidences.push_back({{quadOf(face, i), 2, 0, 0}, 1});
+        const std::uint32_t center = addCorner(incidences, isBilinear_);
         for (int i = 0; i < size; ++i) {
             const std::uint32_t middle = middleOfSide(face, i);
             const auto edge = std::uint32_t(surface_.edges.size());
-            Touch inward{quadOf(face, i), 1, 0, 1}, outward{quadOf(face, i + 1), 2, 0, 1};
+            Incidence inward{quadOf(face, i), 1, 0, 1}, outward{quadOf(face, i + 1), 2, 0, 1};
             const bool isInward = inward.face < outward.face;
             setSide(inward, edge, !isInward);
             setSide(outward, edge, isInward);
@@ -290,8 +290,8 @@ private:
 
     void markBoundary() {
         for (const Edge& edge : surface_.edges)
-            if ((edge.flags & kPlaceOnBoundary) != 0)
-                for (const std::uint32_t corner : edge.corners) surface_.corners[corner].flags |= kPlaceOnBoundary;
+            if ((edge.flags & kOnBoundary) != 0)
+                for (const std::uint32_t corner : edge.corners) surface_.corners[corner].flags |= kOnBoundary;
     }
 
     Surface& surface_;

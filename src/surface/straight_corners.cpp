@@ -91,28 +91,28 @@ public:
         std::vector<std::uint32_t> points;
         points.reserve(surface_.patchPoints.size());
         for (Patch& patch : surface_.patches) {
-            const auto net = std::span(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
+            const auto indices = std::span(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
             patch.firstPoint = std::uint32_t(points.size());
-            points.insert(points.end(), net.begin(), net.end());
+            points.insert(points.end(), indices.begin(), indices.end());
             if (patch.type != kPatchGregory && patch.type != kPatchGregoryTriangle) continue;
             for (int corner = 0; corner < surface_.sideCount; ++corner) {
-                const CornerKind kind = kindOf(patch, net, corner);
+                const CornerKind kind = kindOf(patch, indices, corner);
                 if (kind == CornerKind::narrow)
-                    addNarrowCorner(patch, corner, axes_.at(net[5 * std::size_t(corner)]), points);
+                    addNarrowCorner(patch, corner, axes_.at(indices[5 * std::size_t(corner)]), points);
                 else if (kind != CornerKind::plain)
-                    addCorner(patch, net, corner, kind, points);
+                    addCorner(patch, indices, corner, kind, points);
             }
         }
         surface_.patchPoints = std::move(points);
     }
 
 private:
-    using Net = std::span<const std::uint32_t>;
+    using PointIndices = std::span<const std::uint32_t>;
 
     /// Five points belong to each corner: itself, one along each of its sides, and two inside.
-    [[nodiscard]] CornerKind kindOf(const Patch& patch, const Net& net, int corner) {
+    [[nodiscard]] CornerKind kindOf(const Patch& patch, const PointIndices& indices, int corner) {
         if (!isFaceCorner(patch, surface_.sideCount, corner)) return CornerKind::plain;
-        const std::uint32_t* points = &net[5 * std::size_t(corner)];
+        const std::uint32_t* points = &indices[5 * std::size_t(corner)];
         const RowAngles::Angle angle = angles_.measure(rows_, points[0], points[1], points[2]);
         const double length = angle.length * magnification(patch);
         // Tangents around many faces are short too, but they point somewhere.
@@ -127,10 +127,10 @@ private:
         std::map<std::uint32_t, std::vector<Axes>> corners; // by vertex: the two tangents' points of each narrow corner
         for (const Patch& patch : surface_.patches) {
             if (patch.type != kPatchGregory && patch.type != kPatchGregoryTriangle) continue;
-            const auto net = std::span(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
+            const auto indices = std::span(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
             for (int corner = 0; corner < surface_.sideCount; ++corner) {
-                const std::uint32_t* p = &net[5 * std::size_t(corner)];
-                if (kindOf(patch, net, corner) == CornerKind::narrow) corners[p[0]].push_back({p[1], p[2]});
+                const std::uint32_t* p = &indices[5 * std::size_t(corner)];
+                if (kindOf(patch, indices, corner) == CornerKind::narrow) corners[p[0]].push_back({p[1], p[2]});
             }
         }
         for (const auto& [vertex, around] : corners) axes_[vertex] = axesOf(vertex, around);
@@ -160,7 +160,7 @@ private:
     }
 
     /// Appends the two points whose directions from the corner span the tangent plane there.
-    void addCorner(Patch& patch, const Net& net, int corner, CornerKind kind, std::vector<std::uint32_t>& points) {
+    void addCorner(Patch& patch, const PointIndices& indices, int corner, CornerKind kind, std::vector<std::uint32_t>& points) {
         patch.straightCorners |= 1u << corner;
         const CornerDirections at = directionsAt(surface_.sideCount, corner);
         const PatchWeights weights = patch.type == kPatchGregory ? gregoryQuadWeights(at.uv.x, at.uv.y)
@@ -174,13 +174,13 @@ private:
         };
         const bool isStraight = kind == CornerKind::straight;
         std::array<RowTable::Entry, kMostPatchPoints> one, other;
-        for (std::size_t i = 0; i < net.size(); ++i) {
+        for (std::size_t i = 0; i < indices.size(); ++i) {
             const Jet& w = weights[i];
-            one[i] = {net[i], w.f + (isStraight ? first(w) : second(w, at.next))};
-            other[i] = {net[i], w.f + second(w, isStraight ? diagonal : at.previous)};
+            one[i] = {indices[i], w.f + (isStraight ? first(w) : second(w, at.next))};
+            other[i] = {indices[i], w.f + second(w, isStraight ? diagonal : at.previous)};
         }
-        points.push_back(std::uint32_t(rows_.append(std::span(one).first(net.size()))));
-        points.push_back(std::uint32_t(rows_.append(std::span(other).first(net.size()))));
+        points.push_back(std::uint32_t(rows_.append(std::span(one).first(indices.size()))));
+        points.push_back(std::uint32_t(rows_.append(std::span(other).first(indices.size()))));
     }
 
     Surface& surface_;

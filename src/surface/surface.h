@@ -43,8 +43,8 @@ struct Surface {
 
     std::vector<Edge> edges;
     std::vector<Corner> corners;
-    std::vector<Touch> touches;
-    /// Per touch: drawn faces of its smooth sector, the faces around a corner between two sharp edges. Each sector
+    std::vector<Incidence> incidences;
+    /// Per incidence: drawn faces of its smooth sector, the faces around a corner between two sharp edges. Each sector
     /// counts once in the direction that the faces share, however many faces it has. 1 along edges.
     std::vector<std::uint32_t> sectorFaces;
 
@@ -72,17 +72,17 @@ std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cag
 /// (u,v) of the point at x in [0,1] along side `side`.
 dvec2 sidePoint(int sideCount, int side, double x);
 
-/// All faces along every edge, of smooth edges too (Surface::touches lists only where normals must be agreed).
-struct EdgeTouches {
-    std::vector<std::uint32_t> firsts; ///< edgeCount + 1 entries into touches
-    std::vector<Touch> touches;        ///< of each edge in index order of the faces: the owner comes first
+/// All faces along every edge, of smooth edges too (Surface::incidences lists only where normals must be agreed).
+struct EdgeIncidences {
+    std::vector<std::uint32_t> firsts; ///< edgeCount + 1 entries into incidences
+    std::vector<Incidence> incidences;        ///< of each edge in index order of the faces: the owner comes first
 
-    [[nodiscard]] std::span<const Touch> of(std::size_t edge) const {
-        return std::span(touches).subspan(firsts[edge], firsts[edge + 1] - firsts[edge]);
+    [[nodiscard]] std::span<const Incidence> of(std::size_t edge) const {
+        return std::span(incidences).subspan(firsts[edge], firsts[edge + 1] - firsts[edge]);
     }
 };
-EdgeTouches incidentTouches(const Surface& surface);
-EdgeTouches incidentTouches(std::span<const Face> faces, int sideCount, std::size_t edgeCount);
+EdgeIncidences edgeIncidences(const Surface& surface);
+EdgeIncidences edgeIncidences(std::span<const Face> faces, int sideCount, std::size_t edgeCount);
 
 /// True when front and back faces cancel along every line of sight: every edge is run by as many drawn faces one way as
 /// the other.

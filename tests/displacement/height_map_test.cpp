@@ -106,9 +106,9 @@ TEST(SampleHeight, approachesASmoothFunction) {
 }
 
 TEST(HeightMap, reachIsTheLargestHeight) {
-    EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {0.25f, 1}, 0.5, 3, Wrap::repeat).reach(), 1.5);
-    EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {-4, 1}, 0, -2, Wrap::repeat).reach(), 8);
-    EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {2, 2}, 2, 5, Wrap::repeat).reach(), 0);
+    EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {0.25f, 1}, 0.5, 3, Wrap::repeat).heightBound(), 1.5);
+    EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {-4, 1}, 0, -2, Wrap::repeat).heightBound(), 8);
+    EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {2, 2}, 2, 5, Wrap::repeat).heightBound(), 0);
     const HeightMap map = makeMap(2, 1, {-4, 1});
     EXPECT_EQ(map.lowest, -4);
     EXPECT_EQ(map.highest, 1);
@@ -171,7 +171,7 @@ TEST_F(LoadHeightMap, givenMidAndScaleWin) {
     EXPECT_EQ(map.mid, 0.25);
     EXPECT_EQ(map.scale, 0);
     EXPECT_EQ(map.wrap, Wrap::clamp);
-    EXPECT_EQ(map.reach(), 0);
+    EXPECT_EQ(map.heightBound(), 0);
 }
 
 TEST_F(LoadHeightMap, warnsOfStairsIn8Bits) {

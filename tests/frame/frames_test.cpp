@@ -129,7 +129,7 @@ Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis) {
         e.st = std::max(e.st, worst(dvec3(tex.st, 0), vec3(r.st, 0)));
         e.jacobian = std::max({e.jacobian, worst(dvec3(tex.jacobian[0], 0), vec3(r.stu, 0)) / k,
                                worst(dvec3(tex.jacobian[1], 0), vec3(r.stv, 0)) / k});
-        e.h = std::max(e.h, std::abs(f.height.h - double(r.h)) / map.reach());
+        e.h = std::max(e.h, std::abs(f.height.h - double(r.h)) / map.heightBound());
         // A normal is as exact as the angle and size of its tangents allow.
         const double sine =
             glm::length(glm::cross(f.limit.pu, f.limit.pv)) / (glm::length(f.limit.pu) * glm::length(f.limit.pv));
@@ -172,7 +172,7 @@ INSTANTIATE_TEST_SUITE_P(AllCages, Frames, ::testing::ValuesIn(cases()), [](cons
 class Bases : public OnDevice {};
 
 // Control points too far apart for 16 bits: half of the cage's points follow after many that no face uses.
-TEST_F(Bases, areTheSameWithWideNets) {
+TEST_F(Bases, areTheSameWithWideIndices) {
     Cage cage = torusWithSeams();
     constexpr std::uint32_t kGap = 70'000;
     const auto half = std::uint32_t(cage.positions.size() / 2);
@@ -180,7 +180,7 @@ TEST_F(Bases, areTheSameWithWideNets) {
     for (std::uint32_t& corner : cage.corners)
         if (corner >= half) corner += kGap;
     const Case near{"torus", torusWithSeams(), {.isolation = 3}}, far{"torus of far points", cage, {.isolation = 3}};
-    const auto isWide = [](const Case& c) { return recordsOf(buildSurface(c.cage, c.options)).hasWideNets; };
+    const auto isWide = [](const Case& c) { return recordsOf(buildSurface(c.cage, c.options)).hasWideIndices; };
     EXPECT_FALSE(isWide(near));
     EXPECT_TRUE(isWide(far));
     const HeightMap map = sineMap(64, 0.05);

@@ -30,7 +30,7 @@ TEST(Traffic, ofAnEvaluationIsItsRecordsPointsAndTexels) {
     // texels.
     EXPECT_EQ(evaluationBytes({.hasTexCoords = false}), 32u + 8 + 16 * 18 + 12 * 4);
     EXPECT_EQ(evaluationBytes({.format = MapFormat::half}), 32u + 8 + 16 * 18 + 16 * 10 + 12 * 4);
-    EXPECT_EQ(evaluationBytes({.hasWideNets = true}), 32u + 8 + 16 * 20 + 16 * 12 + 12 * 4);
+    EXPECT_EQ(evaluationBytes({.hasWideIndices = true}), 32u + 8 + 16 * 20 + 16 * 12 + 12 * 4);
     EXPECT_EQ(evaluationBytes({.format = MapFormat::bc4}) - evaluationBytes({}), 12u * 4); // a block a texel
 }
 

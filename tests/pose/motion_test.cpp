@@ -158,7 +158,7 @@ TEST_F(Motion, layersAreTheSurfacesOwn) {
     const ReferenceSurface reference(scene.cage, {.isolation = 3});
     Renderer renderer(device(), {.width = kSide, .height = kSide});
     const Picture picture = renderer.render(scene.model, scene.options);
-    const double reach = scene.map.reach();
+    const double reach = scene.map.heightBound();
     eachPixel(picture, [&](const dvec2& pixel, const float* values) {
         const dvec3 n(values[kLayerNormal], values[kLayerNormal + 1], values[kLayerNormal + 2]);
         EXPECT_NEAR(glm::length(n), 1, 1e-5);

@@ -187,7 +187,7 @@ TEST_F(Poses, keepEveryFaceInItsBox) {
         Model model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         const std::vector<vec3> positions = twisted(named.cage, 0.9);
         reference.pose(positions);
-        const std::vector<Bounds> boxes = FaceSupports(surface).bounds(positions, model.faceReaches());
+        const std::vector<Bounds> boxes = FaceSupports(surface).bounds(positions, model.faceHeightBounds());
         for (const SampleQuery& query : randomQueries(surface, 300)) {
             const dvec3 q = displacedFrame(reference, &map, int(query.face), dvec2(query.uv)).q;
             const Bounds& box = boxes[query.face];

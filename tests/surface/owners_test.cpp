@@ -1,4 +1,4 @@
-// Edges, corners and the faces that touch them.
+// Edges, corners and the faces that meet them.
 #include <algorithm>
 #include <tuple>
 
@@ -10,33 +10,33 @@
 namespace relief {
 namespace {
 
-bool isBefore(const Touch& a, const Touch& b) {
+bool isBefore(const Incidence& a, const Incidence& b) {
     return std::tie(a.face, a.side, a.start) < std::tie(b.face, b.side, b.start);
 }
 
 template <typename Owned>
-std::span<const Touch> touchesOf(const Surface& surface, const Owned& owned) {
-    return std::span(surface.touches).subspan(owned.firstTouch, owned.touchCount);
+std::span<const Incidence> incidencesOf(const Surface& surface, const Owned& owned) {
+    return std::span(surface.incidences).subspan(owned.firstIncidence, owned.incidenceCount);
 }
 
 /// All faces along each edge, gathered from the faces.
-std::vector<std::vector<Touch>> gatherEdgeTouches(const Surface& surface) {
-    std::vector<std::vector<Touch>> touches(surface.edges.size());
-    atPieces(surface, [&](const Piece& piece) { touches.at(piece.edge).push_back(piece.touch); });
-    return touches;
+std::vector<std::vector<Incidence>> gatherEdgeIncidences(const Surface& surface) {
+    std::vector<std::vector<Incidence>> incidences(surface.edges.size());
+    atPieces(surface, [&](const Piece& piece) { incidences.at(piece.edge).push_back(piece.incidence); });
+    return incidences;
 }
 
 /// All faces around each corner, gathered from the ends of the edges along their sides. (A corner of a face is the
 /// start of a side; the middle of a split side is met at its first piece's end.)
-std::vector<std::vector<Touch>> gatherCornerTouches(const Surface& surface) {
-    std::vector<std::vector<Touch>> touches(surface.corners.size());
+std::vector<std::vector<Incidence>> gatherCornerIncidences(const Surface& surface) {
+    std::vector<std::vector<Incidence>> incidences(surface.corners.size());
     atPieces(surface, [&](const Piece& piece) {
         const Edge& edge = surface.edges[piece.edge];
-        const float start = std::min(piece.touch.start, piece.touch.end);
-        const bool isReversed = piece.touch.start > piece.touch.end;
-        touches.at(edge.corners[isReversed ? 1 : 0]).push_back({piece.touch.face, piece.touch.side, start, start});
+        const float start = std::min(piece.incidence.start, piece.incidence.end);
+        const bool isReversed = piece.incidence.start > piece.incidence.end;
+        incidences.at(edge.corners[isReversed ? 1 : 0]).push_back({piece.incidence.face, piece.incidence.side, start, start});
     });
-    return touches;
+    return incidences;
 }
 
 template <typename Check>
@@ -52,9 +52,9 @@ TEST(Sides, LieOnTheirEdgesPointByPoint) {
         const ReferenceSurface reference(family.cage, {family.scheme, 3});
         double worst = 0;
         atPieces(surface, [&](const Piece& piece) {
-            const Touch& owner = surface.edges.at(piece.edge).owner;
+            const Incidence& owner = surface.edges.at(piece.edge).owner;
             for (const double t : {0.0, 0.1, 0.25, 0.5, 0.8, 1.0}) {
-                const dvec3 own = reference.limit(int(piece.touch.face), pointOf(surface, piece.touch, t)).p;
+                const dvec3 own = reference.limit(int(piece.incidence.face), pointOf(surface, piece.incidence, t)).p;
                 const dvec3 owners = reference.limit(int(owner.face), pointOf(surface, owner, t)).p;
                 worst = std::max(worst, glm::length(own - owners));
             }
@@ -72,12 +72,12 @@ TEST(Sides, MeetInTheirFacesCorners) {
                 const auto last = piecesOf(surface, face, (side + surface.sideCount - 1) % surface.sideCount).back();
                 const auto first = piecesOf(surface, face, side).front();
                 const auto endOf = [&](const Piece& piece, bool isEnd) {
-                    const bool isReversed = piece.touch.start > piece.touch.end;
+                    const bool isReversed = piece.incidence.start > piece.incidence.end;
                     return surface.edges[piece.edge].corners[isReversed != isEnd ? 1 : 0];
                 };
                 const std::uint32_t corner = endOf(first, false);
                 EXPECT_EQ(corner, endOf(last, true)) << "face " << face << " corner " << side;
-                const Touch& owner = surface.corners.at(corner).owner;
+                const Incidence& owner = surface.corners.at(corner).owner;
                 const dvec3 owners = reference.limit(int(owner.face), pointOf(surface, owner, 0)).p;
                 const dvec3 own = reference.limit(int(face), sidePoint(surface.sideCount, side, 0)).p;
                 EXPECT_LE(glm::length(own - owners), 1e-12 * boundsOf(family.cage).diagonal());
@@ -91,35 +91,35 @@ TEST(Sides, OfHolesHaveNoEdges) {
     for (const std::uint32_t side : surface.faces[2].sides) EXPECT_EQ(side, kNoPatch);
 }
 
-TEST(Edges, AreOwnedByTheLowestFaceAndTouchedInOrder) {
+TEST(Edges, AreOwnedByTheLowestFaceWithIncidencesInOrder) {
     forFamilies(2, [](const Family&, const Surface& surface) {
-        auto gathered = gatherEdgeTouches(surface);
+        auto gathered = gatherEdgeIncidences(surface);
         for (std::size_t i = 0; i < surface.edges.size(); ++i) {
             const Edge& edge = surface.edges[i];
             ASSERT_FALSE(gathered[i].empty());
             std::sort(gathered[i].begin(), gathered[i].end(), isBefore);
             EXPECT_TRUE(isSame(edge.owner, gathered[i].front())) << "edge " << i;
             EXPECT_LT(edge.owner.start, edge.owner.end);
-            const auto touches = touchesOf(surface, edge);
-            if (!touches.empty()) {
-                EXPECT_TRUE(std::equal(touches.begin(), touches.end(), gathered[i].begin(), gathered[i].end(), isSame))
+            const auto incidences = incidencesOf(surface, edge);
+            if (!incidences.empty()) {
+                EXPECT_TRUE(std::equal(incidences.begin(), incidences.end(), gathered[i].begin(), gathered[i].end(), isSame))
                     << "edge " << i;
             }
         }
     });
 }
 
-TEST(Corners, AreOwnedByTheLowestFaceAndTouchedInOrder) {
+TEST(Corners, AreOwnedByTheLowestFaceWithIncidencesInOrder) {
     forFamilies(2, [](const Family&, const Surface& surface) {
-        auto gathered = gatherCornerTouches(surface);
+        auto gathered = gatherCornerIncidences(surface);
         for (std::size_t i = 0; i < surface.corners.size(); ++i) {
             const Corner& corner = surface.corners[i];
             std::sort(gathered[i].begin(), gathered[i].end(), isBefore);
             ASSERT_FALSE(gathered[i].empty());
             EXPECT_TRUE(isSame(corner.owner, gathered[i].front())) << "corner " << i;
-            const auto touches = touchesOf(surface, corner);
-            if (!touches.empty()) {
-                EXPECT_TRUE(std::equal(touches.begin(), touches.end(), gathered[i].begin(), gathered[i].end(), isSame))
+            const auto incidences = incidencesOf(surface, corner);
+            if (!incidences.empty()) {
+                EXPECT_TRUE(std::equal(incidences.begin(), incidences.end(), gathered[i].begin(), gathered[i].end(), isSame))
                     << "corner " << i;
             }
         }
@@ -139,7 +139,7 @@ TEST(Edges, OfSplitSidesAreConsecutivePartners) {
             }
         }
         atPieces(surface, [&](const Piece& piece) {
-            const bool isSplit = surface.faces[piece.touch.face].sides[piece.touch.side] & kSideSplit;
+            const bool isSplit = surface.faces[piece.incidence.face].sides[piece.incidence.side] & kSideSplit;
             if (isSplit) {
                 EXPECT_NE(surface.edges[piece.edge].partner, piece.edge);
             }
@@ -147,98 +147,98 @@ TEST(Edges, OfSplitSidesAreConsecutivePartners) {
     });
 }
 
-// Where faces see different normals, the direction of displacement must be agreed: no touches means one normal.
-TEST(Touches, AreListedWhereverNormalsDisagree) {
+// Where faces see different normals, the direction of displacement must be agreed: no incidences means one normal.
+TEST(Incidences, AreListedWhereverNormalsDisagree) {
     forFamilies(6, [](const Family& family, const Surface& surface) {
         const ReferenceSurface reference(family.cage, {family.scheme, 6});
-        const auto normalAt = [&](const Touch& touch, double t) {
-            return reference.normal(int(touch.face), pointOf(surface, touch, t));
+        const auto normalAt = [&](const Incidence& incidence, double t) {
+            return reference.normal(int(incidence.face), pointOf(surface, incidence, t));
         };
-        const auto edgeTouches = gatherEdgeTouches(surface), cornerTouches = gatherCornerTouches(surface);
+        const auto edgeIncidences = gatherEdgeIncidences(surface), cornerIncidences = gatherCornerIncidences(surface);
         for (std::size_t i = 0; i < surface.edges.size(); ++i) {
-            if (surface.edges[i].touchCount > 0) continue;
-            for (const Touch& touch : edgeTouches[i])
+            if (surface.edges[i].incidenceCount > 0) continue;
+            for (const Incidence& incidence : edgeIncidences[i])
                 for (const double t : {0.02, 0.3, 0.7})
-                    EXPECT_LE(degreesBetween(normalAt(touch, t), normalAt(edgeTouches[i][0], t)), 1.0) << "edge " << i;
+                    EXPECT_LE(degreesBetween(normalAt(incidence, t), normalAt(edgeIncidences[i][0], t)), 1.0) << "edge " << i;
         }
         for (std::size_t i = 0; i < surface.corners.size(); ++i) {
-            if (surface.corners[i].touchCount > 0) continue;
-            for (const Touch& touch : cornerTouches[i])
-                EXPECT_LE(degreesBetween(normalAt(touch, 0), normalAt(cornerTouches[i][0], 0)), 1.0) << "corner " << i;
+            if (surface.corners[i].incidenceCount > 0) continue;
+            for (const Incidence& incidence : cornerIncidences[i])
+                EXPECT_LE(degreesBetween(normalAt(incidence, 0), normalAt(cornerIncidences[i][0], 0)), 1.0) << "corner " << i;
         }
     });
 }
 
 struct Counts {
-    int edges = 0, corners = 0; ///< with touches
+    int edges = 0, corners = 0; ///< with incidences
     bool operator==(const Counts&) const = default;
 };
 std::ostream& operator<<(std::ostream& out, const Counts& c) { return out << c.edges << " edges, " << c.corners; }
 
-Counts touched(const Surface& surface) {
-    const auto isTouched = [](const auto& owned) { return owned.touchCount > 0; };
+Counts incidenceCounts(const Surface& surface) {
+    const auto isTouched = [](const auto& owned) { return owned.incidenceCount > 0; };
     return {int(std::count_if(surface.edges.begin(), surface.edges.end(), isTouched)),
             int(std::count_if(surface.corners.begin(), surface.corners.end(), isTouched))};
 }
 
-Counts touched(const Cage& cage, int isolation = 3, Scheme scheme = Scheme::catmark) {
-    return touched(buildSurface(cage, {scheme, isolation}));
+Counts incidenceCounts(const Cage& cage, int isolation = 3, Scheme scheme = Scheme::catmark) {
+    return incidenceCounts(buildSurface(cage, {scheme, isolation}));
 }
 
-TEST(Touches, AreListedOnlyWhereTheSurfaceIsNotSmooth) {
+TEST(Incidences, AreListedOnlyWhereTheSurfaceIsNotSmooth) {
     const std::vector<std::uint32_t> top{4, 5, 6, 7};
-    EXPECT_EQ(touched(prism(4)), (Counts{0, 0}));
-    EXPECT_EQ(touched(prism(5)), (Counts{0, 0}));
-    EXPECT_EQ(touched(icosahedron(), 3, Scheme::loop), (Counts{0, 0}));
-    EXPECT_EQ(touched(withCreases(prism(4), top, 10)), (Counts{4, 4}));
-    EXPECT_EQ(touched(withCreases(prism(4), top, 2.5F)), (Counts{0, 0}));
-    EXPECT_EQ(touched(withCreases(prism(4), top, 2.5F), 2), (Counts{4, 4}));
-    EXPECT_EQ(touched(withCreases(prism(4), top, 10), 10), (Counts{4, 4}));
-    EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 10)), (Counts{0, 1}));
-    EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 10), 10), (Counts{0, 1}));
-    EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 2)), (Counts{0, 0}));
-    EXPECT_EQ(touched(withSharpVertex(prism(4), 2, 2), 1), (Counts{0, 1}));
-    EXPECT_EQ(touched(withCreases(prism(5), {5, 6, 7, 8, 9}, 10)), (Counts{10, 10}));
-    EXPECT_EQ(touched(sheet(4, 3)), (Counts{14, 14}));
-    EXPECT_EQ(touched(fins()), (Counts{10, 8}));
-    EXPECT_EQ(touched(test::nonManifoldEdge()), (Counts{1, 2}));
-    EXPECT_EQ(touched(twistedPair()), (Counts{7, 6}));
-    EXPECT_EQ(touched(test::nonManifoldVertex()), (Counts{0, 1}));
-    EXPECT_EQ(touched(prism(5), 3, Scheme::bilinear), (Counts{35, 22}));
+    EXPECT_EQ(incidenceCounts(prism(4)), (Counts{0, 0}));
+    EXPECT_EQ(incidenceCounts(prism(5)), (Counts{0, 0}));
+    EXPECT_EQ(incidenceCounts(icosahedron(), 3, Scheme::loop), (Counts{0, 0}));
+    EXPECT_EQ(incidenceCounts(withCreases(prism(4), top, 10)), (Counts{4, 4}));
+    EXPECT_EQ(incidenceCounts(withCreases(prism(4), top, 2.5F)), (Counts{0, 0}));
+    EXPECT_EQ(incidenceCounts(withCreases(prism(4), top, 2.5F), 2), (Counts{4, 4}));
+    EXPECT_EQ(incidenceCounts(withCreases(prism(4), top, 10), 10), (Counts{4, 4}));
+    EXPECT_EQ(incidenceCounts(withSharpVertex(prism(4), 2, 10)), (Counts{0, 1}));
+    EXPECT_EQ(incidenceCounts(withSharpVertex(prism(4), 2, 10), 10), (Counts{0, 1}));
+    EXPECT_EQ(incidenceCounts(withSharpVertex(prism(4), 2, 2)), (Counts{0, 0}));
+    EXPECT_EQ(incidenceCounts(withSharpVertex(prism(4), 2, 2), 1), (Counts{0, 1}));
+    EXPECT_EQ(incidenceCounts(withCreases(prism(5), {5, 6, 7, 8, 9}, 10)), (Counts{10, 10}));
+    EXPECT_EQ(incidenceCounts(sheet(4, 3)), (Counts{14, 14}));
+    EXPECT_EQ(incidenceCounts(fins()), (Counts{10, 8}));
+    EXPECT_EQ(incidenceCounts(test::nonManifoldEdge()), (Counts{1, 2}));
+    EXPECT_EQ(incidenceCounts(twistedPair()), (Counts{7, 6}));
+    EXPECT_EQ(incidenceCounts(test::nonManifoldVertex()), (Counts{0, 1}));
+    EXPECT_EQ(incidenceCounts(prism(5), 3, Scheme::bilinear), (Counts{35, 22}));
 }
 
 // Chaikin's rule averages sharpness along a crease: an edge below the limit beside one above it may stay sharp.
-TEST(Touches, CountChaikinNeighboursAsSharp) {
+TEST(Incidences, CountChaikinNeighboursAsSharp) {
     Cage cage = withChaikin(withCreases(prism(4), {4, 5, 6, 7}, 2));
     cage.creaseSharpness[0] = 8;
-    EXPECT_EQ(touched(cage, 3), (Counts{4, 4}));
+    EXPECT_EQ(incidenceCounts(cage, 3), (Counts{4, 4}));
     cage.creaseSharpness[0] = 3;
-    EXPECT_EQ(touched(cage, 3), (Counts{0, 0}));
+    EXPECT_EQ(incidenceCounts(cage, 3), (Counts{0, 0}));
 }
 
-TEST(Touches, NameAllFacesOfANonManifoldEdge) {
+TEST(Incidences, NameAllFacesOfANonManifoldEdge) {
     const Surface surface = buildSurface(fins(), {});
-    const auto isShared = [](const Edge& edge) { return edge.touchCount == 3; };
+    const auto isShared = [](const Edge& edge) { return edge.incidenceCount == 3; };
     EXPECT_EQ(std::count_if(surface.edges.begin(), surface.edges.end(), isShared), 1);
 }
 
-TEST(Touches, NameAllFansOfAVertex) {
+TEST(Incidences, NameAllFansOfAVertex) {
     const Surface surface = buildSurface(test::nonManifoldVertex(), {});
     std::vector<std::uint32_t> faces;
     for (const Corner& corner : surface.corners) {
-        const auto touches = touchesOf(surface, corner);
-        const bool isMeeting = std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.face < 6; }) &&
-                               std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.face >= 6; });
+        const auto incidences = incidencesOf(surface, corner);
+        const bool isMeeting = std::any_of(incidences.begin(), incidences.end(), [](const Incidence& t) { return t.face < 6; }) &&
+                               std::any_of(incidences.begin(), incidences.end(), [](const Incidence& t) { return t.face >= 6; });
         if (!isMeeting) continue;
-        for (const Touch& touch : touches) faces.push_back(touch.face);
+        for (const Incidence& incidence : incidences) faces.push_back(incidence.face);
     }
     EXPECT_EQ(faces, (std::vector<std::uint32_t>{1, 3, 5, 6, 8, 10}));
 }
 
-TEST(Touches, LeaveHolesOut) {
+TEST(Incidences, LeaveHolesOut) {
     const Surface surface = buildSurface(withHoles(withCreases(prism(4), {4, 5, 6, 7}, 10), {5}), {});
-    for (const Touch& touch : surface.touches) EXPECT_NE(touch.face, 5u);
-    for (const Edge& edge : surface.edges) EXPECT_LE(edge.touchCount, 1u);
+    for (const Incidence& incidence : surface.incidences) EXPECT_NE(incidence.face, 5u);
+    for (const Edge& edge : surface.edges) EXPECT_LE(edge.incidenceCount, 1u);
 }
 
 // V - E + F; the halves of a split side count as two edges of its face.

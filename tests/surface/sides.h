@@ -5,14 +5,14 @@
 
 namespace relief {
 
-inline bool isSame(const Touch& a, const Touch& b) {
+inline bool isSame(const Incidence& a, const Incidence& b) {
     return a.face == b.face && a.side == b.side && a.start == b.start && a.end == b.end;
 }
 
 /// How one side of a face sees one edge: at x = start + t (end - start).
 struct Piece {
     std::uint32_t edge;
-    Touch touch;
+    Incidence incidence;
 };
 
 /// Reads Face::sides as its comment says.
@@ -38,8 +38,8 @@ void atPieces(const Surface& surface, const Test& test) {
     }
 }
 
-inline dvec2 pointOf(const Surface& surface, const Touch& touch, double t) {
-    return sidePoint(surface.sideCount, int(touch.side), touch.start + t * (touch.end - touch.start));
+inline dvec2 pointOf(const Surface& surface, const Incidence& incidence, double t) {
+    return sidePoint(surface.sideCount, int(incidence.side), incidence.start + t * (incidence.end - incidence.start));
 }
 
 } // namespace relief

@@ -1,0 +1,109 @@
+#include "distance/closest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace relief {
+namespace {
+
+struct Query {
+    const ClosestPoints* points;
+    dvec3 p;
+    double squared; ///< of the shortest distance so far
+    double slack;   ///< Embree looks around a rounded place
+};
+
+/// A radius that leaves nothing nearer out when it is rounded to float.
+float radiusOf(double distance) { return float(distance) * 1.000001f + std::numeric_limits<float>::min(); }
+
+bool visitTriangle(RTCPointQueryFunctionArguments* arguments) {
+    Query& query = *static_cast<Query*>(arguments->userPtr);
+    const std::uint32_t* corner = &query.points->indices()[3 * std::size_t(arguments->primID)];
+    const auto at = [&](std::uint32_t i) { return dvec3(query.points->positions()[corner[i]]); };
+    const dvec3 away = query.p - nearestInTriangle(query.p, at(0), at(1), at(2));
+    const double squared = glm::dot(away, away);
+    if (squared >= query.squared) return false;
+    query.squared = squared;
+    arguments->query->radius = std::min(arguments->query->radius, radiusOf(std::sqrt(squared) + query.slack));
+    return true;
+}
+
+void checkTriangles(const TriangleView& triangles) {
+    for (std::size_t i = 0; i < triangles.positions.size(); ++i) {
+        const vec3& p = triangles.positions[i];
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            fail(Failure::input, "vertex {} of the surface is not finite", i);
+    }
+    for (std::size_t i = 0; i < triangles.indices.size(); ++i)
+        if (triangles.indices[i] >= triangles.positions.size())
+            fail(Failure::input, "triangle {} of the surface names vertex {}; vertices 0 to {} exist", i / 3,
+                 triangles.indices[i], std::ptrdiff_t(triangles.positions.size()) - 1);
+    if (triangles.indices.empty() || triangles.indices.size() % 3 != 0)
+        fail(Failure::input,
+             "a surface to measure has three indices a triangle and a triangle at least, not {} indices",
+             triangles.indices.size());
+}
+
+} // namespace
+
+dvec3 nearestInTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
+    const dvec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
+    const double d1 = dot(ab, ap), d2 = dot(ac, ap), d3 = dot(ab, bp), d4 = dot(ac, bp), d5 = dot(ab, cp),
+                 d6 = dot(ac, cp);
+    // A triangle without area has its sides and corners only: every quotient below has a divisor above zero.
+    if (d1 <= 0 && d2 <= 0) return a;
+    if (d3 >= 0 && d4 <= d3) return b;
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0 && d1 >= 0 && d3 <= 0 && d1 > d3) return a + d1 / (d1 - d3) * ab;
+    if (d6 >= 0 && d5 <= d6) return c;
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0 && d2 >= 0 && d6 <= 0 && d2 > d6) return a + d2 / (d2 - d6) * ac;
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0 && d4 >= d3 && d5 >= d6 && d4 - d3 + d5 - d6 > 0) return b + (d4 - d3) / (d4 - d3 + d5 - d6) * (c - b);
+    const double sum = va + vb + vc;
+    return sum > 0 ? a + vb / sum * ab + vc / sum * ac : a;
+}
+
+ClosestPoints::ClosestPoints(const TriangleView& triangles) {
+    checkTriangles(triangles);
+    positions_.reserve(triangles.positions.size() + 1);
+    positions_.assign(triangles.positions.begin(), triangles.positions.end());
+    positions_.emplace_back(0.0f);
+    indices_.assign(triangles.indices.begin(), triangles.indices.end());
+    if (!device_)
+        fail(Failure::device, "Embree does not start (error {}); is there memory for it?",
+             int(rtcGetDeviceError(nullptr)));
+    scene_.reset(rtcNewScene(device_.get()));
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW); // as many trees are built as measured
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions_.data(), 0,
+                               sizeof(vec3), positions_.size() - 1);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices_.data(), 0,
+                               3 * sizeof(std::uint32_t), indices_.size() / 3);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
+    rtcSetGeometryPointQueryFunction(geometry, visitTriangle);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_.get());
+    if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
+        fail(error == RTC_ERROR_OUT_OF_MEMORY ? Failure::device : Failure::internal,
+             "Embree builds no tree of {} "
+             "triangles: error {}",
+             indices_.size() / 3, int(error));
+}
+
+double ClosestPoints::distance(const dvec3& p, double limit) const {
+    RTCPointQuery at{};
+    at.x = float(p.x), at.y = float(p.y), at.z = float(p.z);
+    const double slack = glm::length(p - dvec3(at.x, at.y, at.z));
+    at.radius = radiusOf(limit + slack);
+    Query query{this, p, std::numeric_limits<double>::infinity(), slack};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene_.get(), &at, &context, nullptr, &query);
+    return std::sqrt(query.squared);
+}
+
+} // namespace relief

@@ -1,0 +1,32 @@
+// Internal: the nearest point of a set of triangles, by Embree's tree.
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include "distance/distance.h"
+
+namespace relief {
+
+/// The point of triangle abc that is nearest to p (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+dvec3 nearestInTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c);
+
+/// Keeps the triangles it was made of. Queries may run on several threads.
+class ClosestPoints {
+public:
+    explicit ClosestPoints(const TriangleView& triangles);
+    ClosestPoints(const ClosestPoints&) = delete;
+    ClosestPoints& operator=(const ClosestPoints&) = delete;
+
+    /// To the nearest point; `limit` is a distance within which there is one (a good guess makes it quick).
+    [[nodiscard]] double distance(const dvec3& p, double limit) const;
+    [[nodiscard]] const std::vector<vec3>& positions() const { return positions_; }
+    [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }
+
+private:
+    std::vector<vec3> positions_; ///< one more than there are: Embree reads 16 bytes a vertex
+    std::vector<std::uint32_t> indices_;
+    std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device_{rtcNewDevice(nullptr), rtcReleaseDevice};
+    std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene_{nullptr, rtcReleaseScene};
+};
+
+} // namespace relief

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <thread>
+
+#include "distance/closest.h"
+
+namespace relief {
+/// Points spread over a surface.
+struct Samples {
+    std::vector<dvec3> places;
+    std::vector<double> weights; ///< area that each stands for
+    double coverage = 0;
+};
+
+namespace {
+
+/// Part i of a triangle that is cut into n * n, by corner weights: rows from the third corner's side, upright triangles
+/// first.
+std::array<dvec2, 3> partOf(std::uint32_t i, std::uint32_t n) {
+    std::uint32_t row = 0;
+    for (; i >= 2 * (n - row) - 1; ++row) i -= 2 * (n - row) - 1;
+    const bool isTurned = i >= n - row;
+    const std::uint32_t column = isTurned ? i - (n - row) : i;
+    const dvec2 at = dvec2(column, row) / double(n);
+    const double step = 1.0 / n;
+    if (isTurned) return {at + dvec2(step, step), at + dvec2(0, step), at + dvec2(step, 0)};
+    return {at, at + dvec2(step, 0), at + dvec2(0, step)};
+}
+
+/// Number `index` of the R2 sequence, folded into the triangle (0,0) (1,0) (0,1): Roberts, "The unreasonable
+/// effectiveness of quasirandom sequences", 2018.
+dvec2 sequencePlace(std::size_t index) {
+    constexpr double kPlastic = 1.32471795724474602596; // the real root of x^3 = x + 1
+    const double n = double(index) + 1;
+    dvec2 place(n / kPlastic, n / (kPlastic * kPlastic));
+    place -= glm::floor(place);
+    return place.x + place.y > 1 ? 1.0 - place : place;
+}
+
+/// A third dimension of it: which triangle of a run.
+double sequenceShare(std::size_t index) {
+    constexpr double kGolden = 0.61803398874989484820;
+    const double x = (double(index) + 0.5) * kGolden;
+    return x - std::floor(x);
+}
+
+class Sampler {
+public:
+    Sampler(const ClosestPoints& surface, std::size_t wanted)
+        : surface_(surface), wanted_(std::max<std::size_t>(wanted, 1)) {}
+
+    Samples sample() {
+        const std::size_t triangleCount = surface_.indices().size() / 3;
+        if (triangleCount >= wanted_)
+            sampleRuns(triangleCount);
+        else
+            sampleParts(triangleCount);
+        double area = 0;
+        for (const double weight : samples_.weights) area += weight;
+        if (!(area > 0)) fail(Failure::input, "the surface of {} triangles has no area to measure", triangleCount);
+        return std::move(samples_);
+    }
+
+private:
+    using Corners = std::array<dvec3, 3>;
+
+    [[nodiscard]] Corners cornersOf(std::size_t triangle) const {
+        Corners corners;
+        for (std::size_t i = 0; i < 3; ++i)
+            corners[i] = dvec3(surface_.positions()[surface_.indices()[3 * triangle + i]]);
+        return corners;
+    }
+    static double areaOf(const Corners& c) { return 0.5 * glm::length(glm::cross(c[1] - c[0], c[2] - c[0])); }
+    static double longestSideOf(const Corners& c) {
+        return std::max({glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
+    }
+    static dvec3 at(const Corners& c, const dvec2& w) { return c[0] + w.x * (c[1] - c[0]) + w.y * (c[2] - c[0]); }
+
+    void add(const dvec3& place, double area, std::span<const dvec3> covered) {
+        samples_.places.push_back(place);
+        samples_.weights.push_back(area);
+        for (const dvec3& p : covered) samples_.coverage = std::max(samples_.coverage, glm::distance(p, place));
+    }
+
+    static std::uint32_t partsOf(const Corners& corners, double length) {
+        return std::uint32_t(std::clamp(std::ceil(longestSideOf(corners) / length), 1.0, 4096.0));
+    }
+
+    /// The longest part for which there are about as many as wanted.
+    [[nodiscard]] double partLength(std::size_t triangleCount) const {
+        double longest = 0;
+        for (std::size_t t = 0; t < triangleCount; ++t) longest = std::max(longest, longestSideOf(cornersOf(t)));
+        double low = longest / 4096, high = longest; // the count falls with the length
+        for (int step = 0; step < 20 && low > 0; ++step) {
+            const double length = std::sqrt(low * high);
+            std::size_t count = 0;
+            for (std::size_t t = 0; t < triangleCount; ++t) {
+                const std::size_t n = partsOf(cornersOf(t), length);
+                count += n * n;
+            }
+            (count > wanted_ ? low : high) = length;
+        }
+        return high > 0 ? high : 1;
+    }
+
+    void sampleParts(std::size_t triangleCount) {
+        const double length = partLength(triangleCount);
+        for (std::size_t t = 0; t < triangleCount; ++t) {
+            const Corners corners = cornersOf(t);
+            const std::uint32_t n = partsOf(corners, length);
+            for (std::uint32_t i = 0; i < n * n; ++i) {
+                const std::array<dvec2, 3> part = partOf(i, n);
+                const Corners places{at(corners, part[0]), at(corners, part[1]), at(corners, part[2])};
+                add(at(places, sequencePlace(samples_.places.size())), areaOf(corners) / (double(n) * n), places);
+            }
+        }
+    }
+
+    void sampleRuns(std::size_t triangleCount) {
+        for (std::size_t run = 0; run < wanted_; ++run) {
+            const std::size_t first = run * triangleCount / wanted_, end = (run + 1) * triangleCount / wanted_;
+            std::vector<dvec3> covered;
+            double area = 0;
+            for (std::size_t t = first; t < end; ++t) {
+                const Corners corners = cornersOf(t);
+                covered.insert(covered.end(), corners.begin(), corners.end());
+                area += areaOf(corners);
+            }
+            double left = sequenceShare(run) * area;
+            std::size_t chosen = first;
+            for (; chosen + 1 < end; ++chosen) {
+                left -= areaOf(cornersOf(chosen));
+                if (left < 0) break;
+            }
+            add(at(cornersOf(chosen), sequencePlace(run)), area, covered);
+        }
+    }
+
+    const ClosestPoints& surface_;
+    std::size_t wanted_;
+    Samples samples_;
+};
+
+/// Calls `work(first, end)` for stretches of 0..count, one per core; in turn where no more threads can be started.
+void onAllCores(std::size_t count, const std::function<void(std::size_t first, std::size_t end)>& work) {
+    const std::size_t partCount = std::max(1u, std::thread::hardware_concurrency());
+    std::vector<std::future<void>> parts;
+    for (std::size_t i = 0; i < partCount; ++i)
+        parts.push_back(std::async([&, i] { work(i * count / partCount, (i + 1) * count / partCount); }));
+    for (std::future<void>& part : parts) part.get();
+}
+
+} // namespace
+
+struct MeasuredSurface::Parts {
+    ClosestPoints points;
+    Samples samples;
+    double area = 0;
+
+    Parts(const TriangleView& triangles, std::size_t sampleCount)
+        : points(triangles), samples(Sampler(points, sampleCount).sample()) {
+        for (const double weight : samples.weights) area += weight;
+    }
+};
+
+MeasuredSurface::MeasuredSurface(const TriangleView& triangles, std::size_t sampleCount)
+    : parts_(std::make_unique<Parts>(triangles, sampleCount)) {}
+MeasuredSurface::~MeasuredSurface() = default;
+MeasuredSurface::MeasuredSurface(MeasuredSurface&&) noexcept = default;
+MeasuredSurface& MeasuredSurface::operator=(MeasuredSurface&&) noexcept = default;
+
+double MeasuredSurface::distance(const dvec3& p) const {
+    return parts_->points.distance(p, std::numeric_limits<double>::infinity());
+}
+std::size_t MeasuredSurface::sampleCount() const { return parts_->samples.places.size(); }
+double MeasuredSurface::coverage() const { return parts_->samples.coverage; }
+
+SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface& to) {
+    const Samples& samples = from.parts_->samples;
+    std::vector<double> distances(samples.places.size());
+    onAllCores(distances.size(), [&](std::size_t first, std::size_t end) {
+        // A distance changes by no more than one moves: the last one limits the search for the next.
+        double limit = std::numeric_limits<double>::infinity();
+        for (std::size_t i = first; i < end; ++i) {
+            if (i > first) limit = distances[i - 1] + glm::distance(samples.places[i - 1], samples.places[i]);
+            distances[i] = to.parts_->points.distance(samples.places[i], limit);
+        }
+    });
+    SampledDistance result{.coverage = samples.coverage, .sampleCount = distances.size()};
+    double squares[2] = {}, areas[2] = {}, sum = 0;
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+        squares[i % 2] += samples.weights[i] * distances[i] * distances[i];
+        areas[i % 2] += samples.weights[i];
+        sum += samples.weights[i] * distances[i];
+        result.max = std::max(result.max, distances[i]);
+    }
+    const double area = areas[0] + areas[1];
+    result.mean = sum / area;
+    result.rms = std::sqrt((squares[0] + squares[1]) / area);
+    if (areas[0] > 0 && areas[1] > 0)
+        result.rmsError = 0.5 * std::abs(std::sqrt(squares[0] / areas[0]) - std::sqrt(squares[1] / areas[1]));
+    return result;
+}
+
+double SurfaceDistance::rms() const { return std::sqrt(0.5 * (forth.rms * forth.rms + back.rms * back.rms)); }
+double SurfaceDistance::rmsError() const { return std::max(forth.rmsError, back.rmsError); }
+double SurfaceDistance::hausdorff() const { return std::max(forth.max, back.max); }
+
+SurfaceDistance measureDistance(const MeasuredSurface& a, const MeasuredSurface& b) {
+    return {measureOneWay(a, b), measureOneWay(b, a)};
+}
+
+} // namespace relief

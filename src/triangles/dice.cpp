@@ -1,0 +1,320 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include "shared/rates.h"
+#include "triangles/dice_table.h"
+#include "triangles/stages.h"
+
+namespace relief {
+namespace {
+
+constexpr std::uint32_t kTileSamples = 1024;   ///< of the insides of faces: enough for one load of control points
+constexpr std::uint32_t kGroupsAtOnce = 65535; ///< of a dispatch, in every device
+constexpr std::uint64_t kVertexBytes = 32;     ///< position and height, normal
+
+std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
+
+/// The smallest i with i / n >= cell / 2^depth, and at least 1: the border of a face belongs to its edges.
+std::uint32_t firstIn(std::uint32_t cell, std::uint32_t depth, std::uint32_t n) {
+    const std::uint64_t scale = std::uint64_t(1) << depth;
+    return std::max(std::uint32_t((std::uint64_t(cell) * n + scale - 1) / scale), 1u);
+}
+
+/// What one dicing dispatches.
+struct Work {
+    std::vector<std::uint32_t> runFirsts; ///< one more at the end: where the insides begin
+    std::vector<InsideTile> insides;      ///< those of regular patches first
+    std::size_t regularCount = 0;
+    std::vector<TriangleTile> rings, cells; ///< triangles at edges, triangles between inner samples
+    std::vector<std::uint32_t> firstTriangles, faceRates;
+    std::uint64_t vertexCount = 0, triangleCount = 0, sampleCount = 0;
+    std::uint32_t maxRate = 0;
+};
+
+class WorkBuilder {
+public:
+    WorkBuilder(const Model& model, const DiceTable& table, const EdgeRates& rates)
+        : model_(model), table_(table), rates_(rates) {}
+
+    Work build() {
+        addRuns();
+        for (std::uint32_t face = 0; face < model_.faces().size(); ++face) {
+            work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
+            work_.faceRates.push_back(0);
+            if (model_.faces()[face].root != kNoPatch) addFace(face);
+        }
+        work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
+        const auto others =
+            std::ranges::stable_partition(work_.insides, [&](const InsideTile& tile) { return isRegular(tile); });
+        work_.regularCount = work_.insides.size() - others.size();
+        return std::move(work_);
+    }
+
+private:
+    void addRuns() {
+        for (const VertexRun& run : table_.runs) {
+            work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
+            work_.vertexCount += run.isCorner != 0 ? 1 : rates_.segments(run.element) - 1;
+        }
+        work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
+        work_.sampleCount = model_.cornerCount();
+        for (std::uint32_t edge = 0; edge < model_.edges().size(); ++edge)
+            work_.sampleCount += rates_.segments(edge) - 1;
+    }
+
+    void addFace(std::uint32_t face) {
+        const FaceSegments f = faceSegments(model_, rates_, face);
+        work_.faceRates.back() = std::uint32_t(std::ceil(f.largestRate));
+        work_.maxRate = std::max(work_.maxRate, work_.faceRates.back());
+        const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount())});
+        const auto firstVertex = std::uint32_t(work_.vertexCount);
+        const std::uint64_t atEdges = triangles - cellTriangles(f);
+        const auto addTiles = [&](std::vector<TriangleTile>& tiles, std::uint64_t first, std::uint64_t end) {
+            for (; first < end; first += kTrianglesPerTile)
+                tiles.push_back({face, std::uint32_t(first), std::uint32_t(work_.triangleCount + first), firstVertex});
+        };
+        addTiles(work_.rings, 0, atEdges);
+        addTiles(work_.cells, atEdges, triangles);
+        work_.triangleCount += triangles;
+        if (std::max(f.u, f.v) == 1) return;
+        if (model_.isTriangles())
+            addTriangleInside(face, std::max(f.u, 3u));
+        else
+            addQuadInside(face, f);
+        work_.sampleCount += work_.vertexCount - firstVertex;
+    }
+
+    /// The triangles of a face that touch no edge.
+    [[nodiscard]] std::uint64_t cellTriangles(const FaceSegments& f) const {
+        const std::uint64_t m = std::max(f.u, 2u) - 2, n = std::max(f.v, 2u) - 2, inner = std::max(f.u, 3u) - 3;
+        return model_.isTriangles() ? inner * inner : 2 * m * n;
+    }
+
+    void addTriangleInside(std::uint32_t face, std::uint32_t n) {
+        const std::uint32_t rows = std::max(kTileSamples / (n - 2), 1u);
+        for (std::uint32_t j = 1; j <= n - 2; j += rows)
+            work_.insides.push_back({face, 0, packed(1, j), packed(n - 2, std::min(rows, n - 1 - j)), packed(n, n), 0,
+                                     0, std::uint32_t(work_.vertexCount)});
+        work_.vertexCount += std::uint64_t(n - 1) * (n - 2) / 2;
+    }
+
+    void addQuadInside(std::uint32_t face, const FaceSegments& f) {
+        const std::uint32_t m = std::max(f.u, 2u), n = std::max(f.v, 2u);
+        for (const TreeLeaf& leaf : leavesOf(model_.tree(), model_.faces()[face].root)) {
+            // Fractional samples are not at i/m: which leaf they fall in is found by looking.
+            const std::uint32_t i0 = firstSample(leaf.u, leaf.depth, m, f.rateU),
+                                i1 = firstSample(leaf.u + 1, leaf.depth, m, f.rateU);
+            const std::uint32_t j0 = firstSample(leaf.v, leaf.depth, n, f.rateV),
+                                j1 = firstSample(leaf.v + 1, leaf.depth, n, f.rateV);
+            if (i0 >= i1) continue;
+            const std::uint32_t rows = std::max(kTileSamples / (i1 - i0), 1u);
+            for (std::uint32_t j = j0; j < j1; j += rows)
+                work_.insides.push_back({face, leaf.patchIndex, packed(i0, j), packed(i1 - i0, std::min(rows, j1 - j)),
+                                         packed(m, n), leaf.depth, packed(leaf.u, leaf.v),
+                                         std::uint32_t(work_.vertexCount)});
+        }
+        work_.vertexCount += std::uint64_t(m - 1) * (n - 1);
+    }
+
+    [[nodiscard]] bool isRegular(const InsideTile& tile) const {
+        return !model_.isTriangles() && model_.isRegular(tile.patchIndex);
+    }
+
+    /// The first inner sample at or past cell / 2^depth, at most n.
+    [[nodiscard]] std::uint32_t firstSample(std::uint32_t cell, std::uint32_t depth, std::uint32_t n,
+                                            float rate) const {
+        if (rates_.spacing == Spacing::equal) return std::min(firstIn(cell, depth, n), n);
+        const float bound = std::ldexp(float(cell), -int(depth));
+        std::uint32_t i = 1;
+        while (i < n && formulas::sampleParameter(i, n, rate) < bound) ++i;
+        return i;
+    }
+
+    const Model& model_;
+    const DiceTable& table_;
+    const EdgeRates& rates_;
+    Work work_;
+};
+
+void checkMemory(const Device& device, std::uint64_t bytes, const Work& work, std::optional<std::uint64_t> allowed) {
+    const std::uint64_t limit = allowed.value_or(device.traits().heapBytes / 2);
+    if (bytes > limit)
+        fail(Failure::device,
+             "dicing makes {} vertices and {} triangles, {}; {} are allowed: lower the rate or raise --memory",
+             work.vertexCount, work.triangleCount, humanBytes(bytes), humanBytes(limit));
+    if (2 * work.vertexCount > device.traits().maxTexelBufferElements)
+        fail(Failure::device, "dicing makes {} vertices; this device reads {} at most: lower the rate",
+             work.vertexCount, device.traits().maxTexelBufferElements / 2);
+}
+
+} // namespace
+
+struct Dicer::Parts {
+    explicit Parts(Device& device) : device(device), inputs(device), stages(device), timer(device, 2) {}
+
+    const DiceTable& tableOf(const Model& model) {
+        return tables.of(model, [&] { return makeDiceTable(device, model); });
+    }
+    /// Makes the buffers of the mesh and writes them.
+    DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options);
+
+    struct Pass {
+        const char* file;
+        std::uint64_t groups;
+        PushConstants constants;
+        bool isCommon = false;
+        const Pipeline* pipeline = nullptr;
+    };
+    /// Returns the milliseconds that they take.
+    double run(std::span<const Pass> passes, const BindingSet& set, const Scene& scene);
+
+    Device& device;
+    GeometryInputs inputs;
+    ComputeStages stages;
+    Timer timer;
+    PerModel<DiceTable> tables;
+};
+
+Dicer::Dicer(Device& device) : parts_(std::make_unique<Parts>(device)) {}
+Dicer::~Dicer() = default;
+
+DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+    const DiceTable& table = tableOf(model);
+    const Work work = WorkBuilder(model, table, rates).build();
+    const std::uint64_t vertexBytes = kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0);
+    const std::uint64_t bytes = work.vertexCount * vertexBytes + work.triangleCount * 12;
+    checkMemory(device, bytes, work, options.memory);
+
+    DicedMesh mesh;
+    constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    mesh.vertices =
+        makeTexels(device, {.name = "diced vertices", .bytes = work.vertexCount * kVertexBytes, .usage = usage},
+                   VK_FORMAT_R32G32B32A32_SFLOAT);
+    mesh.texCoords = makeTexels(device,
+                                {.name = "diced texture coordinates",
+                                 .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
+                                 .usage = usage},
+                                VK_FORMAT_R32G32_SFLOAT);
+    mesh.indices = makeBuffer(
+        device,
+        {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
+    mesh.firstTriangles = work.firstTriangles;
+    mesh.faceRates = work.faceRates;
+    mesh.runFirsts = work.runFirsts;
+    mesh.sampleCount = work.sampleCount;
+    mesh.vertexCount = std::uint32_t(work.vertexCount);
+    mesh.triangleCount = std::uint32_t(work.triangleCount);
+    mesh.maxRate = work.maxRate;
+    mesh.byteCount = bytes;
+    mesh.hasTexCoords = options.wantsTexCoords;
+
+    std::vector<std::uint32_t> tiles;
+    appendRecords<kInsideTileTexels>(tiles, work.insides);
+    const std::uint32_t firstRing = appendRecords<kTriangleTileTexels>(tiles, work.rings);
+    const std::uint32_t firstCell = appendRecords<kTriangleTileTexels>(tiles, work.cells);
+    const RateTexels rateTexels = uploadRates(device, model, rates);
+    const TexelBuffer tileTexels =
+        uploadTexels(device, {.name = "dice tiles"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(tiles)));
+    const TexelBuffer firsts = uploadWords(device, "dice firsts", work.runFirsts);
+
+    Scene scene{};
+    Binding bindings[kBindDepths];
+    inputs.fill(model, scene, bindings);
+    useRates(model, rates, rateTexels, scene, bindings);
+    bindings[kBindDiceTable].texels = table.texels.view.get();
+    bindings[kBindDiceTiles].texels = tileTexels.view.get();
+    bindings[kBindDiceFirsts].texels = firsts.view.get();
+    scene.dicedVertices = mesh.vertices.buffer.address;
+    scene.dicedTexCoords = mesh.texCoords.buffer.address;
+    scene.dicedIndices = mesh.indices.address;
+    scene.firstFaceRuns = table.firstFaceRuns;
+    scene.cornerRunCount = table.cornerRunCount;
+    scene.runCount = std::uint32_t(table.runs.size());
+
+    ShaderConstants constants = constantsOf(model, options.normal);
+    constants.wantsTexCoords = options.wantsTexCoords;
+    constants.hasMips = rates.hasMips();
+    constants.groupSize = device.traits().smallGroup;
+    const std::uint32_t edgeVertices = work.runFirsts[table.firstSmoothRun];
+    const auto regularCount = std::uint32_t(work.regularCount);
+    Pass passes[] = {
+        {"dice_insides.comp", regularCount, {}, true},
+        {"dice_insides.comp", work.insides.size() - regularCount, {.passFirst = regularCount}},
+        {"dice_edges.comp",
+         (edgeVertices + constants.groupSize - 1) / constants.groupSize,
+         {.passNumber = edgeVertices}},
+        {"dice_smooth_edges.comp", table.runs.size() - table.firstSmoothRun, {.passFirst = table.firstSmoothRun}},
+        {"dice_triangles.comp", work.cells.size(), {.passFirst = firstCell}, true},
+        {"dice_triangles.comp", work.rings.size(), {.passFirst = firstRing}}};
+    for (Pass& pass : passes) {
+        if (pass.groups == 0) continue; // what is not needed is not compiled
+        constants.isCommon = pass.isCommon;
+        pass.pipeline = &stages.pipeline(pass.file, model, constants);
+    }
+    const std::span<const Pass> all(passes);
+    const BindingSet set = makeBindingSet(device, *all.back().pipeline, GeometryInputs::layout(), bindings);
+    const std::size_t together = all.size() - (options.timesVertices ? 2 : 0);
+    mesh.milliseconds = run(all.first(together), set, scene);
+    if (!options.timesVertices) return mesh;
+    mesh.vertexMilliseconds = mesh.milliseconds;
+    mesh.milliseconds += run(all.subspan(together), set, scene);
+    return mesh;
+}
+
+double Dicer::Parts::run(std::span<const Pass> passes, const BindingSet& set, const Scene& scene) {
+    const auto start = std::chrono::steady_clock::now();
+    device.run([&](VkCommandBuffer commands) {
+        timer.reset(commands);
+        writeScene(commands, inputs.scene(), scene);
+        timer.stamp(commands);
+        for (const Pass& pass : passes) {
+            if (pass.groups == 0) continue;
+            bind(commands, *pass.pipeline, set);
+            for (std::uint64_t first = 0; first < pass.groups; first += kGroupsAtOnce) {
+                PushConstants part = pass.constants;
+                part.passFirst += std::uint32_t(first);
+                pushConstants(commands, *pass.pipeline, part);
+                vkCmdDispatch(commands, std::uint32_t(std::min<std::uint64_t>(kGroupsAtOnce, pass.groups - first)), 1,
+                              1);
+            }
+        }
+        barrier(commands);
+        timer.stamp(commands);
+    });
+    // Mesa's CPU driver stamps both times when it rasterizes, after all dispatches: the clock of the host serves
+    // instead.
+    const std::vector<double> times = timer.intervals();
+    if (device.traits().isCpu)
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return times.empty() ? 0 : times[0];
+}
+
+DicedMesh Dicer::dice(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+    return parts_->dice(model, rates, options);
+}
+
+DenseMesh readBack(Device& device, const DicedMesh& diced) {
+    DenseMesh mesh;
+    std::vector<vec4> texels(2 * std::size_t(diced.vertexCount));
+    downloadBytes(device, diced.vertices.buffer, std::as_writable_bytes(std::span(texels)));
+    mesh.positions.reserve(diced.vertexCount);
+    mesh.normals.reserve(diced.vertexCount);
+    for (std::size_t i = 0; i < texels.size(); i += 2) {
+        mesh.positions.emplace_back(texels[i]);
+        mesh.normals.emplace_back(texels[i + 1]);
+    }
+    mesh.indices.resize(3 * std::size_t(diced.triangleCount));
+    downloadBytes(device, diced.indices, std::as_writable_bytes(std::span(mesh.indices)));
+    if (!diced.hasTexCoords) return mesh;
+    mesh.texCoords.resize(diced.vertexCount);
+    downloadBytes(device, diced.texCoords.buffer, std::as_writable_bytes(std::span(mesh.texCoords)));
+    return mesh;
+}
+
+DenseMesh Dicer::diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+    return readBack(parts_->device, dice(model, rates, options));
+}
+
+} // namespace relief
