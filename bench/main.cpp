@@ -76,7 +76,7 @@ struct Contestant {
 /// Dices one model each round; of the same mesh, the vertices alone and with the triangles between them.
 class DiceContest {
 public:
-    DiceContest(Device& device, const Model& model, const EdgeRates& rates, NormalKind normal, const std::string& what)
+    DiceContest(Device& device, const SurfaceModel& model, const EdgeRates& rates, NormalKind normal, const std::string& what)
         : dicer_(device), model_(model), rates_(rates),
           normal_(normal), vertices_{"relief dicer, vertices", what, 0, {}}, mesh_{"relief dicer, with triangles",
                                                                                    what,
@@ -98,7 +98,7 @@ public:
 
 private:
     Dicer dicer_;
-    const Model& model_;
+    const SurfaceModel& model_;
     const EdgeRates& rates_;
     NormalKind normal_;
     Contestant vertices_, mesh_;
@@ -140,9 +140,9 @@ int benchDice() {
     Subject subject;
     const Surface surface = buildSurface(subject.cage, {.isolation = kIsolation});
     Device device;
-    const Model displaced(device,
+    const SurfaceModel displaced(device,
                           {.surface = &surface, .cagePositions = subject.cage.positions, .height = &subject.map});
-    const Model smooth(device, {.surface = &surface, .cagePositions = subject.cage.positions});
+    const SurfaceModel smooth(device, {.surface = &surface, .cagePositions = subject.cage.positions});
     EdgeRater rater(device);
     const EdgeRates rates = rater.rates(displaced, subject.options, {});
     std::cout << fmt::format(
@@ -174,7 +174,7 @@ int benchSplit() {
         std::cout << "split: " << device.traits().name << " has no tessellation shaders\n";
         return 0;
     }
-    const Model model(device,
+    const SurfaceModel model(device,
                       {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
     for (const std::uint32_t limit : {1'000u, 2'500u, 5'000u, 10'000u, 20'000u, 40'000u, 80'000u}) {
         RenderOptions options = subject.options;

@@ -58,7 +58,7 @@ void benchCage(Device& device, const std::string& name, const Cage& cage, int is
     const Surface surface = buildSurface(cage, {.isolation = isolation});
     if (surface.stencils.sharedRowCount > 0)
         fail(Failure::input, "{}: a vertex or face has too many neighbours for OpenSubdiv's stencils", name);
-    Model model(device, {.surface = &surface, .cagePositions = cage.positions});
+    SurfaceModel model(device, {.surface = &surface, .cagePositions = cage.positions});
     Poser poser(device, model, {.surface = &surface});
     const Pose pose{.positions = cage.positions, .joints = {}, .morphWeights = {}};
     OsdStencils osd(surface.stencils, cage.positions);

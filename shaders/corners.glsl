@@ -6,7 +6,7 @@
 
 const float kParallel = 1e-6; // sine of the angle under which two tangents count as parallel
 
-layout(constant_id = 14) const bool kHasStraightCorners = false;
+layout(constant_id = kIdHasStraightCorners) const bool kHasStraightCorners = false;
 
 // The corner of a patch that lies at its (u,v), which halving keeps exact; one past the last corner elsewhere.
 uint cornerAt(vec2 uv) {
@@ -22,8 +22,10 @@ vec3 straightCornerNormal(PatchPoints patchPoints, vec2 uv) {
     uint corner = cornerAt(uv), bit = 1u << corner;
     if ((patchPoints.straightCorners & bit) == 0u) return vec3(0);
     uint first = patchSize(patchPoints.surface.type) + 2u * bitCount(patchPoints.straightCorners & (bit - 1u));
-    vec3 p = pointAt(pointIndex(patchPoints.surface, 5u * corner));
-    precise vec3 t = pointAt(pointIndex(patchPoints.surface, first)) - p, d = pointAt(pointIndex(patchPoints.surface, first + 1u)) - p;
+    ControlPoints points = patchPoints.surface;
+    vec3 p = surfacePointAt(points, pointIndex(points, 5u * corner));
+    precise vec3 t = surfacePointAt(points, pointIndex(points, first)) - p;
+    precise vec3 d = surfacePointAt(points, pointIndex(points, first + 1u)) - p;
     precise vec3 normal = cross(t, d);
     return dot(normal, normal) > kParallel * kParallel * dot(t, t) * dot(d, d) ? normal : vec3(0);
 }

@@ -2,16 +2,14 @@
 #ifndef RELIEF_DICE_GLSL
 #define RELIEF_DICE_GLSL
 
-#include "scene.glsl"
+#include "inputs.glsl"
 #include "shared/dice.h"
 
-layout(set = 0, binding = kBindDiceTable) uniform usamplerBuffer diceTable;
-layout(set = 0, binding = kBindDiceTiles) uniform usamplerBuffer diceTiles;
-layout(set = 0, binding = kBindDiceFirsts) uniform usamplerBuffer diceFirsts;
+layout(push_constant, scalar) uniform PushBlock { DicePush push; };
 
-uvec4 tableTexel(uint i) { return texelFetch(diceTable, int(i)); }
-uvec4 tileTexel(uint i) { return texelFetch(diceTiles, int(i)); }
-uint firstVertexOf(uint run) { return texelFetch(diceFirsts, int(run)).x; }
+RELIEF_TABLE(kBindDiceTable, uvec4, tableTexel)
+RELIEF_TABLE(kBindDiceTiles, uvec4, tileTexel)
+RELIEF_TABLE(kBindDiceFirsts, uint, firstVertexOf) // of a run
 
 VertexRun fetchRun(uint i) {
     uvec4 a = tableTexel(kRunTexels * i), b = tableTexel(kRunTexels * i + 1u);
@@ -19,7 +17,7 @@ VertexRun fetchRun(uint i) {
 }
 
 FaceRuns fetchFaceRuns(uint face) {
-    uint first = scene.firstFaceRuns + kFaceRunsTexels * face;
+    uint first = inputs.model.firstFaceRuns + kFaceRunsTexels * face;
     uvec4 a = tableTexel(first), b = tableTexel(first + 1u), c = tableTexel(first + 2u), d = tableTexel(first + 3u);
     return FaceRuns(uint[4](a.x, a.y, a.z, a.w), uint[4](b.x, b.y, b.z, b.w),
                     uint[8](c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w));
@@ -40,13 +38,13 @@ uvec2 divided(uint x, uint d) {
 
 // The common case, known when the shader is compiled, for CPU drivers run both sides of every branch: insides in bicubic
 // patches, of the surface and of its texture coordinates; triangles between inner samples.
-layout(constant_id = 9) const bool kIsCommon = false;
+layout(constant_id = kIdIsCommon) const bool kIsCommon = false;
 
 uvec2 halvesOf(uint packed) { return uvec2(packed & 0xffffu, packed >> 16); }
 
 void storeVertex(uint vertex, vec3 q, float h, vec3 normal, vec2 st, bool hasTexCoords) {
-    scene.dicedVertices.at[2u * vertex] = vec4(q, h);
-    scene.dicedVertices.at[2u * vertex + 1u] = vec4(normal, 0.0);
-    if (hasTexCoords) scene.dicedTexCoords.at[vertex] = st;
+    inputs.targets.dicedVertices.at[2u * vertex] = vec4(q, h);
+    inputs.targets.dicedVertices.at[2u * vertex + 1u] = vec4(normal, 0.0);
+    if (hasTexCoords) inputs.targets.dicedTexCoords.at[vertex] = st;
 }
 #endif

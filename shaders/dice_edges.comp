@@ -4,12 +4,12 @@
 #include "displaced.glsl"
 
 // The samples on corners and edges, an invocation a vertex, each evaluated at its owner.
-layout(local_size_x_id = 7) in;
+layout(local_size_x_id = kIdGroupSize) in;
 
 // The run that holds a vertex: corners come first, each a run of one; the others by halving.
 uint runOf(uint vertex) {
-    if (vertex < scene.cornerRunCount) return vertex;
-    uint low = scene.cornerRunCount, high = scene.runCount;
+    if (vertex < inputs.model.cornerRunCount) return vertex;
+    uint low = inputs.model.cornerRunCount, high = inputs.model.runCount;
     while (high - low > 1u) {
         uint middle = (low + high) / 2u;
         if (firstVertexOf(middle) <= vertex) low = middle;
@@ -19,8 +19,8 @@ uint runOf(uint vertex) {
 }
 
 void main() {
-    uint vertex = (passFirst + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (vertex >= passNumber) return;
+    uint vertex = (push.first + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (vertex >= push.count) return;
     uint index = runOf(vertex);
     VertexRun run = fetchRun(index);
     SampleLocation location;
@@ -28,7 +28,7 @@ void main() {
         location = cornerLocation(run.element);
     } else {
         float rate = edgeRate(run.element);
-        location = edgeLocation(run.element, vertex - firstVertexOf(index) + 1u, segmentsOf(rate, scene.isFractional), rate);
+        location = edgeLocation(run.element, vertex - firstVertexOf(index) + 1u, segmentsOf(rate, inputs.rates.isFractional), rate);
     }
     DisplacedSample s = displaced(run.incidence.face, incidencePoint(run.incidence, location.t), location);
     storeVertex(vertex, s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);

@@ -4,7 +4,7 @@
 #include "dice.glsl"
 
 // The samples inside faces, a workgroup a tile.
-layout(local_size_x_id = 7) in;
+layout(local_size_x_id = kIdGroupSize) in;
 
 #ifdef RELIEF_TRIANGLES
 #include "displaced.glsl"
@@ -14,7 +14,7 @@ layout(local_size_x_id = 7) in;
 
 vec2 insidePoint(InsideTile tile, uvec2 ij) {
     uvec2 segments = halvesOf(tile.segments);
-    if (scene.isFractional == 0u) return vec2(ij) / vec2(segments);
+    if (inputs.rates.isFractional == 0u) return vec2(ij) / vec2(segments);
     Face record = fetchFace(tile.face);
     float rates[kSideCount];
     for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]).rate;
@@ -35,7 +35,7 @@ vec2 insidePoint(InsideTile tile, uvec2 ij) {
 uint insideIndex(uvec2 ij, uint n) { return (ij.y - 1u) * (n - 2u) - (ij.y - 1u) * (ij.y - 2u) / 2u + ij.x - 1u; }
 
 void main() {
-    InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
+    InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + push.first);
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     uint n = halvesOf(tile.segments).x;
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
@@ -50,8 +50,8 @@ void main() {
 #else
 
 void main() {
-    InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + passFirst);
-    PatchPoints patchPoints = fetchPatch(tile.patchIndex);
+    InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + push.first);
+    PatchPoints patchPoints = fetchPatch(tile.patchIndex, inputs.model.pointsNow);
     if (kIsCommon) patchPoints.surface.type = patchPoints.texture.type = kPatchRegular;
     loadTile(patchPoints);
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);

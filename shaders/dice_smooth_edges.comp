@@ -4,7 +4,7 @@
 #include "dice.glsl"
 
 // The samples along smooth edges whose owner is one bicubic patch, a workgroup a run: what dice_edges.comp would make of them.
-layout(local_size_x_id = 7) in;
+layout(local_size_x_id = kIdGroupSize) in;
 
 #ifdef RELIEF_TRIANGLES
 void main() {} // all runs are dice_edges.comp's
@@ -12,14 +12,14 @@ void main() {} // all runs are dice_edges.comp's
 #include "dice_tile.glsl"
 
 void main() {
-    uint index = passFirst + gl_WorkGroupID.x, edge = fetchRun(index).element;
+    uint index = push.first + gl_WorkGroupID.x, edge = fetchRun(index).element;
     Edge record = fetchEdge(edge);
     uint patchIndex = faceRoot(record.owner.face) & ~kLeafBit;
-    PatchPoints patchPoints = fetchPatch(patchIndex);
+    PatchPoints patchPoints = fetchPatch(patchIndex, inputs.model.pointsNow);
     patchPoints.surface.type = patchPoints.texture.type = kPatchRegular;
     loadTile(patchPoints);
     float rate = edgeRate(edge);
-    uint n = segmentsOf(rate, scene.isFractional), firstVertex = firstVertexOf(index);
+    uint n = segmentsOf(rate, inputs.rates.isFractional), firstVertex = firstVertexOf(index);
     float low = cornerLevel(record.corners[0]), high = cornerLevel(record.corners[1]);
     for (uint k = 1u + gl_LocalInvocationID.x; k < n; k += gl_WorkGroupSize.x) {
         float t = sampleParameter(k, n, rate);

@@ -13,7 +13,9 @@ vec2 ownTexPoints[kMostPoints];
 shared vec3 sharedRestPoints[kMostPoints];
 vec3 ownRestPoints[kMostPoints];
 
-vec3 tilePoint(uint i) { return kStretches && pose == scene.pointsRest ? ownRestPoints[i] : ownPoints[i]; }
+vec3 tilePoint(ControlPoints points, uint i) {
+    return kStretches && points.array == inputs.model.pointsRest ? ownRestPoints[i] : ownPoints[i];
+}
 vec2 tileTexPoint(uint i) { return ownTexPoints[i]; }
 uvec4 tileRow(uint row) { return 4u * row + uvec4(0, 1, 2, 3); }
 #define RELIEF_POINT_ROW(points, row) tileRow(row)
@@ -23,19 +25,12 @@ uvec4 tileRow(uint row) { return 4u * row + uvec4(0, 1, 2, 3); }
 #define RELIEF_UNROLL [[unroll]] // constant places in the arrays
 #include "displaced.glsl"
 
-vec3 restPoint(uint i) {
-    pose = scene.pointsRest;
-    vec3 p = pointAt(i);
-    pose = scene.pointsNow;
-    return p;
-}
-
 void loadTile(PatchPoints patchPoints) {
     for (uint k = gl_LocalInvocationID.x; k < kMostPoints; k += gl_WorkGroupSize.x) {
         if (k < patchSize(patchPoints.surface.type)) {
             uint i = pointIndex(patchPoints.surface, k);
-            sharedPoints[k] = pointAt(i);
-            if (kStretches) sharedRestPoints[k] = restPoint(i);
+            sharedPoints[k] = pointAt(inputs.model.pointsNow + i).xyz;
+            if (kStretches) sharedRestPoints[k] = pointAt(inputs.model.pointsRest + i).xyz;
         }
         if (kHasTexCoords && k < patchSize(patchPoints.texture.type)) sharedTexPoints[k] = texPointAt(pointIndex(patchPoints.texture, k));
     }

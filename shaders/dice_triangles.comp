@@ -9,7 +9,7 @@
 //   inner samples     +---+---+---+         a segment of the edge takes the inner sample after as many inner segments
 //                    / \ / \ /|  \          as have their middles before its own, and an inner segment likewise:
 //   the edge        +---+----+----+         the two orders merge, and every triangle is known without the others
-layout(local_size_x_id = 7) in;
+layout(local_size_x_id = kIdGroupSize) in;
 
 // Vertex of sample k of a side with r segments, in the side's direction.
 uint sideVertex(FaceRuns runs, uint side, uint entry, uint k, uint r) {
@@ -45,9 +45,9 @@ uint innerBefore(uint k, uint r, uint l, uint n) {
 uint outerBefore(uint i, uint r, uint n) { return min(((2u * i + kInnerStart) * r + n) / (2u * n), r); }
 
 void storeTriangle(uint triangle, uint a, uint b, uint c) {
-    scene.dicedIndices.at[3u * triangle] = a;
-    scene.dicedIndices.at[3u * triangle + 1u] = b;
-    scene.dicedIndices.at[3u * triangle + 2u] = c;
+    inputs.targets.dicedIndices.at[3u * triangle] = a;
+    inputs.targets.dicedIndices.at[3u * triangle + 1u] = b;
+    inputs.targets.dicedIndices.at[3u * triangle + 2u] = c;
 }
 
 #ifdef RELIEF_TRIANGLES
@@ -63,10 +63,8 @@ uint innerOf(TriangleTile tile, uint side, uvec2 n, uint i) {
            : side == 1u ? insideVertex(tile, n.x, last - i, 1u + i) : insideVertex(tile, n.x, 1u, last - i);
 }
 
-uint innerSegments(uint side, uvec2 n) { return n.x - 3u; }
-
 // Cell triangles of the inner lattice, of n - 3 segments a side, row by row: row y has 2 (m - y) - 1 of them.
-void cellTriangle(TriangleTile tile, uvec2 n, uint t, uint triangle) {
+void storeCell(TriangleTile tile, uvec2 n, uint t, uint triangle) {
     uint m = n.x - 3u, y = 0u;
     while (t >= 2u * (m - y) - 1u) {
         t -= 2u * (m - y) - 1u;
@@ -91,9 +89,7 @@ uint innerOf(TriangleTile tile, uint side, uvec2 n, uint i) {
                         : insideVertex(tile, n, 1u, n.y - 1u - i);
 }
 
-uint innerSegments(uint side, uvec2 n) { return (side % 2u == 0u ? n.x : n.y) - 2u; }
-
-void cellTriangle(TriangleTile tile, uvec2 n, uint t, uint triangle) {
+void storeCell(TriangleTile tile, uvec2 n, uint t, uint triangle) {
     uvec2 ji = divided(t / 2u, n.x - 2u);
     uint a = insideVertex(tile, n, ji.y + 1u, ji.x + 1u), d = a + n.x - 1u;
     bool isFirst = t % 2u == 0u;
@@ -101,13 +97,13 @@ void cellTriangle(TriangleTile tile, uvec2 n, uint t, uint triangle) {
 }
 #endif
 
-void cellTriangles(TriangleTile tile, uvec2 n, uint rings, uint count) {
+void storeCells(TriangleTile tile, uvec2 n, uint rings, uint count) {
     for (uint k = gl_LocalInvocationID.x; k < kTrianglesPerTile && tile.firstInFace + k < count; k += gl_WorkGroupSize.x)
-        cellTriangle(tile, n, tile.firstInFace + k - rings, tile.firstTriangle + k);
+        storeCell(tile, n, tile.firstInFace + k - rings, tile.firstTriangle + k);
 }
 
 void main() {
-    uvec4 words = tileTexel(passFirst + gl_WorkGroupID.x);
+    uvec4 words = tileTexel(push.first + gl_WorkGroupID.x);
     TriangleTile tile = TriangleTile(words.x, words.y, words.z, words.w);
     Face face = fetchFace(tile.face);
     FaceRuns runs = fetchFaceRuns(tile.face);
@@ -118,17 +114,14 @@ void main() {
         sum += r[side];
     }
 #ifdef RELIEF_TRIANGLES
-    uvec2 n = uvec2(max(largest, 3u));
-    uint cells = (n.x - 3u) * (n.x - 3u);
+    uvec2 n = latticeSegments(3u, r[0], r[1], r[2], 0u);
 #else
-    uvec2 n = max(uvec2(max(r[0], r[2]), max(r[1], r[3])), 2u);
-    uint cells = 2u * (n.x - 2u) * (n.y - 2u);
+    uvec2 n = latticeSegments(4u, r[0], r[1], r[2], r[3]);
 #endif
-    uint rings = sum;
-    for (uint side = 0u; side < kSideCount; ++side) rings += innerSegments(side, n);
-    if (largest == 1u) rings = kSideCount - 2u;
+    uint cells = cellTriangles(kSideCount, n);
+    uint rings = largest == 1u ? kSideCount - 2u : ringTriangles(kSideCount, sum, n);
     if (kIsCommon) {
-        cellTriangles(tile, n, rings, rings + cells);
+        storeCells(tile, n, rings, rings + cells);
         return;
     }
 
@@ -140,7 +133,7 @@ void main() {
         }
         uint side = 0u;
         for (; side + 1u < kSideCount; ++side) {
-            uint inRing = r[side] + innerSegments(side, n);
+            uint inRing = r[side] + innerSegments(kSideCount, side, n);
             if (t < inRing) break;
             t -= inRing;
         }
@@ -149,7 +142,7 @@ void main() {
 #else
         uint along = side % 2u == 0u ? n.x : n.y;
 #endif
-        uint outer = r[side], inner = innerSegments(side, n);
+        uint outer = r[side], inner = innerSegments(kSideCount, side, n);
         uint entry = face.sides[side];
         if (t < outer) {
             storeTriangle(triangle, sideVertex(runs, side, entry, t, outer), sideVertex(runs, side, entry, t + 1u, outer),

@@ -7,10 +7,10 @@
 #include "locations.glsl"
 #include "shared/displacement.h"
 
-layout(constant_id = 1) const bool kHasTexCoords = false; // else a face's own (u,v) stand in for them
-layout(constant_id = 2) const bool kHasHeight = false;
-layout(constant_id = 3) const uint kNormal = kNormalFull;
-layout(constant_id = 4) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
+layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false; // else a face's own (u,v) stand in for them
+layout(constant_id = kIdHasHeight) const bool kHasHeight = false;
+layout(constant_id = kIdNormal) const uint kNormal = kNormalFull;
+layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
 
 // --- normals --------------------------------------------------------------------------------------------------------
 
@@ -21,7 +21,7 @@ bool spansPlane(vec3 a, vec3 b) {
 
 // Where p_u and p_v are parallel or vanish (coincident corners, cusps, smooth corners) they are taken a little towards
 // the face's centre, a sixteenth of the leaf patch, by their own derivatives: never NaN.
-void mendTangents(inout LimitFrame f, vec2 uv, float leafScale) {
+void repairTangents(inout LimitFrame f, vec2 uv, float leafScale) {
     if (spansPlane(f.pu, f.pv)) return;
 #ifdef RELIEF_TRIANGLES
     vec2 inwards = (vec2(1.0 / 3.0) - uv) / (16.0 * abs(leafScale));
@@ -87,7 +87,7 @@ struct DisplacedSample {
 vec2 ownTexCoords(uint face, vec2 uv) {
     if (!kHasTexCoords) return uv;
     Leaf leaf = findLeaf(face, uv);
-    return patchFrame(true, fetchPatch(leaf.patchIndex), leaf.uv).p.xy;
+    return patchFrame(fetchPatch(leaf.patchIndex, inputs.model.pointsNow).texture, leaf.uv).p.xy;
 }
 
 // p_u x p_v, or what stands for it where it vanishes: at straight corners its derivative along the diagonal; elsewhere p_u and
@@ -101,7 +101,7 @@ vec3 areaNormal(inout LimitFrame f, PatchPoints patchPoints, Leaf leaf, vec2 uv,
         if (isStraight) return straight;
     }
 #endif
-    mendTangents(f, uv, leaf.scale);
+    repairTangents(f, uv, leaf.scale);
     precise vec3 normal = cross(f.pu, f.pv);
     return normal;
 }
@@ -120,36 +120,50 @@ void addStretch(inout SurfacePoint point, LimitFrame rest, vec3 restNormal) {
     point.logStretch = 0.5 * (areaSlope / point.area - restSlope / restArea);
 }
 
+// The frames of the surface, of its texture coordinates and of its rest pose at one point, as far as they are asked for.
+struct PointFrames {
+    LimitFrame surface, texture, rest;
+};
+
+// One call of patchFrame() in a loop: the compiler unfolds every call, and compiling is part of a cold start (COLDSTART).
+PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsTexture, bool wantsRest) {
+    PointFrames frames = PointFrames(kNoFrame, kNoFrame, kNoFrame);
+    uint textureTurn = wantsTexture ? 1u : 0u, restTurn = textureTurn + (wantsRest ? 1u : 0u);
+    for (uint turn = 0u; turn <= restTurn; ++turn) {
+        bool isTexture = turn > 0u && turn == textureTurn;
+        ControlPoints points = patchPoints.surface;
+        if (isTexture) points = patchPoints.texture;
+        else if (wantsRest && turn == restTurn) points = inPose(points, inputs.model.pointsRest);
+        LimitFrame f = byFace(patchFrame(points, leaf.uv), leaf.scale);
+        if (turn == 0u) frames.surface = f;
+        else if (isTexture) frames.texture = f;
+        else frames.rest = f;
+    }
+    return frames;
+}
+
 SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
-    SurfacePoint point;
-    point.tex = TexFrame(uv, mat2(1.0));
-    point.stretch = 1.0;
-    point.logStretch = vec2(0);
-    // One call for all kinds of patch: the compiler unfolds every call, and compiling is part of a cold start.
     bool hasTexture = wantsTexture && kHasTexCoords && (kHasHeight || kWantsTexCoords);
     bool hasRest = kStretches && wantsTexture && kHasHeight;
-    LimitFrame rest = kNoFrame;
-    vec3 restNormal = vec3(0);
-    uint textureKind = hasTexture ? 1u : 0u, restKind = textureKind + (hasRest ? 1u : 0u), own = pose;
-    for (uint kind = 0u; kind <= restKind; ++kind) {
-        bool isTexture = kind > 0u && kind == textureKind;
-        if (hasRest && kind == restKind) pose = scene.pointsRest;
-        LimitFrame f = byFace(patchFrame(isTexture, patchPoints, leaf.uv), leaf.scale);
-        if (kind == 0u) point.frame = f;
-        else if (isTexture) point.tex = TexFrame(f.p.xy, mat2(f.pu.xy, f.pv.xy));
-        else {
-            rest = f;
-            bool isStraight;
-            restNormal = areaNormal(rest, patchPoints, leaf, uv, isStraight);
-        }
-    }
-    pose = own;
+    PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
+    SurfacePoint point;
+    point.frame = frames.surface;
+    point.tex = TexFrame(uv, mat2(1.0));
+    if (hasTexture) point.tex = TexFrame(frames.texture.p.xy, mat2(frames.texture.pu.xy, frames.texture.pv.xy));
+    point.stretch = 1.0;
+    point.logStretch = vec2(0);
     precise vec3 normal = areaNormal(point.frame, patchPoints, leaf, uv, point.isStraight);
     precise float area = length(normal);
     precise vec3 n = normal / area;
     point.area = area;
     point.n = n;
-    if (hasRest) addStretch(point, rest, restNormal);
+    if (hasRest) {
+        PatchPoints atRest = patchPoints;
+        atRest.surface.array = inputs.model.pointsRest;
+        bool isStraight;
+        vec3 restNormal = areaNormal(frames.rest, atRest, leaf, uv, isStraight);
+        addStretch(point, frames.rest, restNormal);
+    }
     return point;
 }
 
@@ -171,10 +185,11 @@ HeightSample heightAt(SurfacePoint point, float level) {
     return HeightSample(h, point.stretch * height.gradient);
 }
 
-// Walks the faces that meet at the place, in the edge's fixed order: one of them where the surface is smooth, all where
-// the normal has to be agreed on: of each sector between sharp edges the faces share one vote, so that a direction does not
-// jump from an edge to the corner at its end. The first face is the owner: it gives the point and the height.
-DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
+// Walks the faces that meet at the location, in the edge's fixed order: one of them where the surface is smooth, all where
+// their normals differ and they need a shared direction. The faces of each sector between sharp edges share one vote, so that
+// the direction does not jump from an edge to the corner at its end. The first face is the owner: it gives the point and the
+// height. `pose`: the texel where the pose's points begin.
+DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location, uint pose) {
 #ifdef RELIEF_MUTANT_OWNER // a test of the tests: one edge of sixteen is evaluated at whatever face is drawn
     Incidence o = location.owner;
     if (!location.isInside && o.start != o.end && (kSideCount * o.face + o.side) % 16u == 0u) location = insideLocation(face, faceUV);
@@ -195,7 +210,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
         bool isIncidenceOfFace = incidence.face == face && !isOwn;
         bool isUsed = i == 0u || isIncidenceOfFace;
         Leaf leaf = findLeaf(incidence.face, uv);
-        SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex), leaf, uv, isUsed);
+        SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex, pose), leaf, uv, isUsed);
         direction += share * point.n;
         if (isUsed) {
             isOwn = incidence.face == face;
@@ -208,7 +223,7 @@ DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
             addAttributes(s, point, height);
         }
     }
-    // Normals that cancel (a fin, faces of opposite winding) agree on the owner's.
+    // Normals that cancel (a fin, faces of opposite winding): the owner's.
     if (count > 1u) direction = dot(direction, direction) > 1e-6 ? normalize(direction) : ownersNormal;
     precise vec3 q = displacedPoint(s.p, direction, s.h);
     s.q = q;
@@ -217,7 +232,11 @@ DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
     return s;
 }
 
-// The same for a point inside a face whose leaf is known.
+DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
+    return displacedInPose(face, faceUV, location, inputs.model.pointsNow);
+}
+
+// A point inside a face whose leaf is known: what displaced() gives there, without the search.
 DisplacedSample displacedInLeaf(PatchPoints patchPoints, Leaf leaf, vec2 uv, float level) {
     DisplacedSample s;
     SurfacePoint point = surfacePoint(patchPoints, leaf, uv, true);

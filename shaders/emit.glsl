@@ -7,23 +7,19 @@
 layout(xfb_buffer = 0, xfb_stride = 16, xfb_offset = 0, location = 5) out vec4 captured; // position, 1 on a boundary
 #endif
 
-// `slot` is the vertex's place among those captured.
-void emitVertex(uint face, vec2 uv, SampleLocation location, uint rate, uint slot) {
+// Returns what captures hold of the vertex: its position, and 1 on a boundary.
+vec4 emitVertex(uint face, vec2 uv, SampleLocation location, uint rate) {
     DisplacedSample s = displaced(face, uv, location);
     precise vec4 clip = project(s.q);
     gl_Position = clip;
-    vNormal = s.normal;
+    vNormal = worldNormal(s.normal);
     vTexCoord = vec4(s.st, uv);
     vHeight = s.h;
-    vFace = kShow == kShowLayers ? face : cageFaceOf(face);
+    vFace = kPass == kPassLayers ? face : cageFaceOf(face);
     vRate = rate;
-#if defined(RELIEF_CAPTURES_STREAM) || defined(RELIEF_CAPTURES_STORED)
     vec4 vertex = vec4(s.q, (location.flags & kOnBoundary) != 0u ? 1.0 : 0.0);
 #ifdef RELIEF_CAPTURES_STREAM
     captured = vertex;
-#else
-    scene.captureTarget.at[passFirst + slot] = vertex;
-    gl_PointSize = 1.0; // captured as points
 #endif
-#endif
+    return vertex;
 }

@@ -8,19 +8,19 @@ layout(local_size_x = 64) in;
 
 void main() {
     uint index = gl_GlobalInvocationID.x;
-    if (index >= scene.edgeCount) return;
+    if (index >= inputs.model.edgeCount) return;
     const uint pieces = 4u;
     Incidence owner = fetchEdge(index).owner;
     float texels = 0.0;
     vec2 last = vec2(0), lower = vec2(1e30), upper = vec2(-1e30);
     for (uint k = 0u; k <= pieces; ++k) {
         vec2 uv = incidencePoint(owner, float(k) / float(pieces));
-        vec2 st = displaced(owner.face, uv, insideLocation(owner.face, uv)).st, at = st * vec2(scene.mapSize);
+        vec2 st = displaced(owner.face, uv, insideLocation(owner.face, uv)).st, at = st * vec2(inputs.model.maps[0].size);
         lower = min(lower, st);
         upper = max(upper, st);
         if (k > 0u) texels += length(at - last);
         last = at;
     }
     float words[kFootprintFloats] = {texels, lower.x, lower.y, upper.x, upper.y};
-    for (uint i = 0u; i < kFootprintFloats; ++i) scene.edgeTarget.at[kFootprintFloats * index + i] = words[i];
+    for (uint i = 0u; i < kFootprintFloats; ++i) inputs.targets.edges.at[kFootprintFloats * index + i] = words[i];
 }

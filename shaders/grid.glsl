@@ -1,14 +1,16 @@
-// A face drawn as a regular grid of passNumber x passRows segments, an instance a face. Samples on a side move to the nearest
+// A face drawn as a regular grid of push.columns x push.rows segments, one instance per face. Samples on a side move to the nearest
 // sample of the edge's own rate, which is never larger: both faces pass through exactly the same points.
 #include "displaced.glsl"
 #include "emit.glsl"
+
+layout(push_constant, scalar) uniform PushBlock { GridPush push; };
 
 uint snap(uint k, uint from, uint to) { return (2u * k * to + from) / (2u * from); }
 
 // Sample (i,j) of the grid.
 vec2 facePoint(uint face, uint i, uint j) {
-    uint n = passNumber, m = passRows;
-    if (scene.isFractional == 0u) return vec2(i, j) / vec2(n, m);
+    uint n = push.columns, m = push.rows;
+    if (inputs.rates.isFractional == 0u) return vec2(i, j) / vec2(n, m);
     Face record = fetchFace(face);
     float rates[kSideCount];
     for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]).rate;
@@ -23,8 +25,8 @@ vec2 facePoint(uint face, uint i, uint j) {
 }
 
 void main() {
-    uint face = texelFetch(drawFaceTexels, gl_InstanceIndex).x;
-    uint n = passNumber, m = passRows;
+    uint face = drawFace(gl_InstanceIndex);
+    uint n = push.columns, m = push.rows;
     uint i = uint(gl_VertexIndex) % (n + 1u), j = uint(gl_VertexIndex) / (n + 1u);
     vec2 uv = facePoint(face, i, j);
 
@@ -44,5 +46,10 @@ void main() {
         SideRate rate = sideRate(entry);
         location = sideLocation(entry, snap(k, count, rate.segments), rate);
     }
-    emitVertex(face, uv, location, max(n, m), uint(gl_InstanceIndex) * (n + 1u) * (m + 1u) + uint(gl_VertexIndex));
+    vec4 captured = emitVertex(face, uv, location, max(n, m));
+#ifdef RELIEF_CAPTURES_STORED
+    uint slot = uint(gl_InstanceIndex) * (n + 1u) * (m + 1u) + uint(gl_VertexIndex);
+    inputs.targets.captured.at[push.firstCaptured + slot] = captured;
+    gl_PointSize = 1.0; // captured as points
+#endif
 }

@@ -2,21 +2,24 @@
 #ifndef RELIEF_HEIGHTS_GLSL
 #define RELIEF_HEIGHTS_GLSL
 
-#include "scene.glsl"
+#include "inputs.glsl"
 
-layout(constant_id = 12) const uint kMapFormat = kMapReal; // kMap...
+layout(constant_id = kIdMapFormat) const uint kMapFormat = kMapReal; // kMap...
 
-layout(set = 0, binding = kBindHeight) uniform usamplerBuffer heightWords;
+RELIEF_TABLE(kBindHeight, uint, wordAt)
 
 struct HeightSample {
     float h;
     vec2 gradient;  // (h_s, h_t)
 };
 
-// The map's columns or rows first - 1 to first + 2.
-ivec4 wrapped(int first, int size) {
+// The record of the map that holds (s,t).
+uint mapAt(vec2 st) { return 0u; }
+
+// The columns or rows first - 1 to first + 2 of a map level of that size.
+ivec4 wrapped(int first, int size, bool repeats) {
     ivec4 at = first + ivec4(-1, 0, 1, 2);
-    if (scene.mapRepeats == 0u) return clamp(at, 0, size - 1);
+    if (!repeats) return clamp(at, 0, size - 1);
     // The first one falls anywhere, the others follow it.
     int start = at.x - size * int(floor(float(at.x) / float(size)));
     at = start + ivec4(0, 1, 2, 3);
@@ -29,7 +32,7 @@ struct HeightLevel {
     int first; // word
 };
 
-uint heightWord(int i) { return texelFetch(heightWords, i).x; }
+uint heightWord(int i) { return wordAt(uint(i)); }
 
 // Code i of a block, and the number that it stands for.
 float blockNumber(uint word0, uint word1, int i) {
@@ -58,12 +61,13 @@ float texel(HeightLevel level, int column, int row) {
 
 // h bilinear; h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569), h_t likewise: twelve texels, of
 // which the four around the point serve both. t points up, rows go down.
-HeightSample sampleLevel(vec2 st, uint number) {
-    HeightLevel l = HeightLevel(max(scene.mapSize >> int(number), 1), int(scene.mapFirsts[number]));
+HeightSample sampleLevel(uint map, vec2 st, uint number) {
+    HeightLevel l = HeightLevel(max(inputs.model.maps[map].size >> int(number), 1), int(inputs.model.maps[map].firstWords[number]));
     precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(l.size) - 0.5;
     vec2 whole = floor(x);
     vec2 f = x - whole;
-    ivec4 c = wrapped(int(whole.x), l.size.x), r = wrapped(int(whole.y), l.size.y);
+    bool repeats = inputs.model.maps[map].repeats != 0u;
+    ivec4 c = wrapped(int(whole.x), l.size.x, repeats), r = wrapped(int(whole.y), l.size.y, repeats);
     vec4 below = vec4(texel(l, c.x, r.y), texel(l, c.y, r.y), texel(l, c.z, r.y), texel(l, c.w, r.y));
     vec4 above = vec4(texel(l, c.x, r.z), texel(l, c.y, r.z), texel(l, c.z, r.z), texel(l, c.w, r.z));
     vec2 low = vec2(texel(l, c.y, r.x), texel(l, c.z, r.x));
@@ -77,23 +81,24 @@ HeightSample sampleLevel(vec2 st, uint number) {
     precise float down = mix(row1, rowHigh, f.y) - mix(rowLow, row0, f.y);
 
     HeightSample s;
-    s.h = scene.heightScale * (mix(row0, row1, f.y) - scene.heightMid);
-    vec2 perUnit = 0.5 * scene.heightScale * vec2(l.size);
+    s.h = inputs.model.maps[map].scale * (mix(row0, row1, f.y) - inputs.model.maps[map].mid);
+    vec2 perUnit = 0.5 * inputs.model.maps[map].scale * vec2(l.size);
     s.gradient = vec2(mix(across0, across1, f.y), -down) * perUnit;
     return s;
 }
 
 // Between two levels of the map.
 HeightSample sampleHeight(vec2 st, float level) {
-    if (!kHasMips) return sampleLevel(st, 0u);
-    float last = float(scene.mapLevels - 1u);
+    uint map = mapAt(st);
+    if (!kHasMips) return sampleLevel(map, st, 0u);
+    float last = float(inputs.model.maps[map].levelCount - 1u);
     level = clamp(level, 0.0, last);
     float lower = floor(level);
     precise float f = level - lower;
     HeightSample s = HeightSample(0.0, vec2(0));
     for (uint i = 0u; i < (f > 0.0 ? 2u : 1u); ++i) {
         precise float weight = i == 0u ? 1.0 - f : f;
-        HeightSample one = sampleLevel(st, uint(lower) + i);
+        HeightSample one = sampleLevel(map, st, uint(lower) + i);
         precise float h = s.h + weight * one.h;
         s.h = h;
         s.gradient += weight * one.gradient;

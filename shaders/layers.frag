@@ -1,15 +1,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scene.glsl"
+#include "inputs.glsl"
 #define RELIEF_VARYING in
 #include "varyings.glsl"
 #include "octahedral.glsl"
 
-// Which point of the surface a pixel sees at its centre: what layers.comp goes by.
+// Which point of the surface a pixel sees at its centre: what layers.comp reads.
 layout(location = 0) out vec4 normalAndTexCoords; // octahedral, (s,t)
-layout(location = 1) out vec4 surfacePoint;              // (u,v) in the face, height, the face's number and 1
+layout(location = 1) out vec4 surfacePoint;       // (u,v) in the face, height, the face's number and 1
+layout(location = 2) out uint instance;           // kHasInstances
+
+layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
 
 void main() {
     normalAndTexCoords = vec4(octahedral(gl_FrontFacing ? vNormal : -vNormal), vTexCoord.xy);
     surfacePoint = vec4(vTexCoord.zw, vHeight, float(vFace) + 1.0);
+    if (kHasInstances) instance = inputs.view.instance;
 }

@@ -1,28 +1,30 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scene.glsl"
+#include "inputs.glsl"
 #include "octahedral.glsl"
 #include "rounding.glsl"
 
-// Light on the samples that surface.frag left: once a pixel inside the surface, once a sample where its depth jumps.
+// Light on the samples that surface.frag left: once per pixel inside the surface, once per sample where its depth jumps.
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(constant_id = 5) const uint kShow = kShowShaded;
+layout(constant_id = kIdShow) const uint kShow = kShowShaded;
+layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
 
 layout(set = 0, binding = kBindEnvironment) uniform sampler2D environmentMap; // equirectangular
 layout(set = 0, binding = kBindShadow) uniform sampler2D shadowMap;           // reversed depth from the key light
 layout(set = 0, binding = kBindDepths) uniform sampler2DMS depthSamples;
 layout(set = 0, binding = kBindNormals) uniform sampler2DMS normalSamples;
 layout(set = 0, binding = kBindColors) uniform sampler2DMS colorSamples;
+layout(set = 0, binding = kBindInstances) uniform usampler2DMS instanceSamples; // kHasInstances
 
 const float kPi = 3.14159265;
 
 // Ramamoorthi and Hanrahan (2001), eq. 13, with the cosine lobe and basis constants folded into the coefficients.
 vec3 irradiance(vec3 n) {
-    return max(vec3(0), scene.irradiance[0] + scene.irradiance[1] * n.y + scene.irradiance[2] * n.z +
-                            scene.irradiance[3] * n.x + scene.irradiance[4] * (n.x * n.y) +
-                            scene.irradiance[5] * (n.y * n.z) + scene.irradiance[6] * (3.0 * n.z * n.z - 1.0) +
-                            scene.irradiance[7] * (n.x * n.z) + scene.irradiance[8] * (n.x * n.x - n.y * n.y));
+    return max(vec3(0), inputs.light.irradiance[0] + inputs.light.irradiance[1] * n.y + inputs.light.irradiance[2] * n.z +
+                            inputs.light.irradiance[3] * n.x + inputs.light.irradiance[4] * (n.x * n.y) +
+                            inputs.light.irradiance[5] * (n.y * n.z) + inputs.light.irradiance[6] * (3.0 * n.z * n.z - 1.0) +
+                            inputs.light.irradiance[7] * (n.x * n.z) + inputs.light.irradiance[8] * (n.x * n.x - n.y * n.y));
 }
 
 vec2 equirectangular(vec3 d) { return vec2(atan(d.x, -d.z) / (2.0 * kPi) + 0.5, acos(clamp(d.y, -1.0, 1.0)) / kPi); }
@@ -45,14 +47,15 @@ float keySpecular(float nl, float nv, float nh, float vh, float roughness, float
     return distribution * visibility * fresnel * nl;
 }
 
-// Share of the key light that arrives: eight samples of the shadow map on a spiral, turned from pixel to pixel.
+// Share of the key light that arrives: eight samples of the shadow map on a spiral, turned from pixel to pixel by interleaved
+// gradient noise (Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014).
 float keyVisibility(vec3 position, vec3 n) {
-    if (scene.hasShadows == 0.0) return 1.0;
-    // The disc heightBounds shadowSoftness to the side, where a tilted surface lies as much deeper as the sine of its tilt.
-    float tilt = length(cross(n, scene.keyDirection));
-    vec4 clip = scene.worldToShadow * vec4(position + n * scene.shadowBias * (0.5 + 2.0 * tilt), 1.0);
+    if (inputs.light.hasShadows == 0.0) return 1.0;
+    // The disc reaches shadowSoftness to the side, where a tilted surface lies as much deeper as the sine of its tilt.
+    float tilt = length(cross(n, inputs.light.keyDirection));
+    vec4 clip = inputs.light.toShadow * vec4(position + n * inputs.light.shadowBias * (0.5 + 2.0 * tilt), 1.0);
     float angle = 2.0 * kPi * fract(52.9829189 * fract(dot(vec2(gl_GlobalInvocationID.xy), vec2(0.06711056, 0.00583715))));
-    vec2 spoke = scene.shadowSoftness * vec2(cos(angle), sin(angle));
+    vec2 spoke = inputs.light.shadowSoftness * vec2(cos(angle), sin(angle));
     const mat2 goldenTurn = mat2(-0.737369, 0.675490, -0.675490, -0.737369);
     float lit = 0.0;
     for (int i = 0; i < 8; ++i) {
@@ -63,7 +66,7 @@ float keyVisibility(vec3 position, vec3 n) {
     return lit;
 }
 
-vec3 shaded(vec3 position, vec3 n, vec3 v, vec3 albedo) {
+vec3 shaded(vec3 position, vec3 n, vec3 v, vec3 albedo, Material material) {
     const float f0 = 0.04; // a dielectric of index 1.5
     float nv = max(dot(n, v), 1e-4);
 
@@ -71,25 +74,25 @@ vec3 shaded(vec3 position, vec3 n, vec3 v, vec3 albedo) {
     vec3 mirrored = reflect(-v, n);
     // Directions below the surface see the surface: fade what they would reflect.
     float horizon = clamp(1.0 + 1.5 * dot(mirrored, n), 0.0, 1.0);
-    vec3 around = textureLod(environmentMap, equirectangular(mirrored), scene.environmentLevel).rgb;
-    vec3 specular = around * environmentBrdf(vec3(f0), scene.roughness, nv) * horizon;
+    vec3 around = textureLod(environmentMap, equirectangular(mirrored), material.environmentLevel).rgb;
+    vec3 specular = around * environmentBrdf(vec3(f0), material.roughness, nv) * horizon;
 
-    vec3 l = scene.keyDirection, h = normalize(l + v);
+    vec3 l = inputs.light.keyDirection, h = normalize(l + v);
     float nl = dot(n, l);
     if (nl > 0.0) {
-        vec3 arriving = scene.keyRadiance * keyVisibility(position, n);
+        vec3 arriving = inputs.light.keyRadiance * keyVisibility(position, n);
         diffuse += arriving * nl / kPi;
-        specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), scene.roughness, f0);
+        specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), material.roughness, f0);
     }
-    return scene.exposure * (albedo * diffuse + specular);
+    return albedo * diffuse + specular;
 }
 
-vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color) {
+vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color, Material material) {
     if (kShow == kShowNormal) return 0.5 * n + 0.5;
-    vec4 world = scene.clipToWorld * vec4(ndc, depth, 1.0);
+    vec4 world = inputs.view.fromClip * vec4(ndc, depth, 1.0);
     vec3 position = world.xyz / world.w;
-    vec3 v = normalize(scene.eye - position);
-    if (kShow == kShowShaded) return shaded(position, n, v, color);
+    vec3 v = normalize(inputs.view.eye - position);
+    if (kShow == kShowShaded) return shaded(position, n, v, color, material);
     return color * (0.35 + 0.65 * max(dot(n, v), 0.0));
 }
 
@@ -97,10 +100,16 @@ vec3 colorAt(ivec2 at, int i) {
     return colorOfStored(texelFetch(colorSamples, at, i).rgb, kShow == kShowShaded);
 }
 
+// The material at a sample; all instances have one where there is one instance.
+Material materialAt(ivec2 at, int i) {
+    if (!kHasInstances) return inputs.material;
+    return inputs.targets.materials.at[texelFetch(instanceSamples, at, i).x];
+}
+
 // No arrays here: indexing them would make compilers unroll the loops around all of shaded().
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, scene.pictureSize))) return;
+    if (any(greaterThanEqual(at, inputs.view.pictureSize))) return;
     float lowest = 1.0, highest = 0.0;
     vec3 normal = vec3(0), color = vec3(0);
     for (int i = 0; i < 4; ++i) {
@@ -112,8 +121,14 @@ void main() {
     }
     vec4 sum = vec4(0);
     if (highest > 0.0) {
-        vec2 ndc = (vec2(at) + 0.5) / vec2(scene.pictureSize) * 2.0 - 1.0;
+        vec2 ndc = (vec2(at) + 0.5) / vec2(inputs.view.pictureSize) * 2.0 - 1.0;
+        // One surface: depths within 2 %, and the sum of four unit normals longer than sqrt(12), which is less than about
+        // 30 degrees from their mean each.
         bool isOneSurface = highest - lowest < 0.02 * highest && dot(normal, normal) > 12.0;
+        if (kHasInstances) {
+            uint first = texelFetch(instanceSamples, at, 0).x;
+            for (int i = 1; i < 4; ++i) isOneSurface = isOneSurface && texelFetch(instanceSamples, at, i).x == first;
+        }
         int count = isOneSurface ? 1 : 4;
         float depth = 0.5 * (lowest + highest);
         vec3 n = normal;
@@ -123,10 +138,10 @@ void main() {
                 n = fromOctahedral(texelFetch(normalSamples, at, i).xy);
                 color = colorAt(at, i);
             }
-            if (depth > 0.0) sum += vec4(seen(ndc, depth, normalize(n), color), 1.0);
+            if (depth > 0.0) sum += vec4(seen(ndc, depth, normalize(n), color, materialAt(at, i)), 1.0);
         }
         sum /= float(count);
     }
     sum.rgb = min(sum.rgb, vec3(65504.0)); // the largest half float: brighter light is white, not infinite
-    scene.pictureTarget.at[at.y * scene.pictureSize.x + at.x] = uvec2(packHalves(sum.rg), packHalves(sum.ba));
+    inputs.targets.picture.at[at.y * inputs.view.pictureSize.x + at.x] = uvec2(packHalves(sum.rg), packHalves(sum.ba));
 }

@@ -1,14 +1,14 @@
-// The function at the heart of every pass: limit(face, uv), the exact frame of the limit surface.
+// The frame of the limit surface in a patch, exact to rounding: its point and the derivatives by (u,v).
 #ifndef RELIEF_LIMIT_GLSL
 #define RELIEF_LIMIT_GLSL
 
-#include "scene.glsl"
+#include "inputs.glsl"
 
-// Where control points come from: the surface's arrays, unless a stage holds them itself.
+// Where control points come from: the surface's tables, unless a stage holds them itself (dice_tile.glsl).
 #ifndef RELIEF_POINT
 #define RELIEF_POINT_ROW pointRow
 #define RELIEF_POINT_INDEX pointIndex
-#define RELIEF_POINT pointAt
+#define RELIEF_POINT surfacePointAt
 #define RELIEF_TEX_POINT texPointAt
 #define RELIEF_UNROLL
 #define RELIEF_MEETS_CORNERS // samples may lie in corners of faces
@@ -22,7 +22,7 @@
 #include "osd_patch_basis.glsl"
 #endif
 
-layout(constant_id = 0) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
+layout(constant_id = kIdGenericBasis) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
 
 struct LimitFrame {
     vec3 p, pu, pv, puu, puv, pvv;
@@ -65,10 +65,10 @@ Leaf findLeaf(uint face, vec2 uv) {
 }
 
 // Control point k of a patch of the surface, or of the texture coordinates on it (in x and y).
-vec3 controlPoint(bool isTexture, ControlPoints points, uint k) {
+vec3 controlPoint(ControlPoints points, uint k) {
     uint i = RELIEF_POINT_INDEX(points, k);
-    if (isTexture) return vec3(RELIEF_TEX_POINT(i), 0.0);
-    return RELIEF_POINT(i);
+    if (points.array == kTexturePoints) return vec3(RELIEF_TEX_POINT(i), 0.0);
+    return RELIEF_POINT(points, i);
 }
 
 #ifndef RELIEF_TRIANGLES
@@ -126,7 +126,8 @@ LimitFrame regular(ControlPoints points, vec2 uv) {
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
         uvec4 i = RELIEF_POINT_ROW(points, row);
-        vec3 a = RELIEF_POINT(i.x), b = RELIEF_POINT(i.y), c = RELIEF_POINT(i.z), d = RELIEF_POINT(i.w);
+        vec3 a = RELIEF_POINT(points, i.x), b = RELIEF_POINT(points, i.y);
+        vec3 c = RELIEF_POINT(points, i.z), d = RELIEF_POINT(points, i.w);
         precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
         precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
         precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
@@ -166,13 +167,13 @@ LimitFrame regularTexture(ControlPoints points, vec2 uv) {
 const uint kGregoryRows[4] = {0u | 1u << 5 | 7u << 10 | 5u << 15, 2u | 3u << 5 | 8u << 10 | 6u << 15,
                               16u | 18u << 5 | 13u << 10 | 12u << 15, 15u | 17u << 5 | 11u << 10 | 10u << 15};
 
-LimitFrame gregory(bool isTexture, ControlPoints points, vec2 uv) {
+LimitFrame gregory(ControlPoints points, vec2 uv) {
     CurveWeights u = bezierWeights(uv.x), v = bezierWeights(uv.y);
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint k = 0u; k < 16u; ++k) {
         uint row = k >> 2, column = k & 3u;
         uint point = (kGregoryRows[row] >> (5u * column)) & 31u;
-        vec3 c = controlPoint(isTexture, points, point);
+        vec3 c = controlPoint(points, point);
         vec3 cu = vec3(0), cv = vec3(0), cuu = vec3(0), cuv = vec3(0), cvv = vec3(0);
         if ((row == 1u || row == 2u) && (column == 1u || column == 2u)) {
             // Distances from the corner's two sides and their derivatives: +1 at the near end, -1 at the far one.
@@ -186,7 +187,7 @@ LimitFrame gregory(bool isTexture, ControlPoints points, vec2 uv) {
             float gx = (isX ? y : -y) * inverse * inverse, gy = (isX ? -x : x) * inverse * inverse;
             float gxx = -2.0 * gx * inverse, gyy = -2.0 * gy * inverse;
             float gxy = (isX ? x - y : y - x) * inverse * inverse * inverse;
-            vec3 other = controlPoint(isTexture, points, point + 1u);
+            vec3 other = controlPoint(points, point + 1u);
             vec3 difference = c - other;
             c = other + g * difference;
             cu = gx * du * difference;
@@ -213,9 +214,9 @@ LimitFrame gregory(bool isTexture, ControlPoints points, vec2 uv) {
 
 // --- bilinear patches -----------------------------------------------------------------------------------------------
 
-LimitFrame bilinear(bool isTexture, ControlPoints points, vec2 uv) {
-    vec3 a = controlPoint(isTexture, points, 0u), b = controlPoint(isTexture, points, 1u);
-    vec3 c = controlPoint(isTexture, points, 2u), d = controlPoint(isTexture, points, 3u);
+LimitFrame bilinear(ControlPoints points, vec2 uv) {
+    vec3 a = controlPoint(points, 0u), b = controlPoint(points, 1u);
+    vec3 c = controlPoint(points, 2u), d = controlPoint(points, 3u);
     LimitFrame f = kNoFrame;
     precise vec3 low = (1.0 - uv.x) * a + uv.x * b, high = (1.0 - uv.x) * d + uv.x * c;
     precise vec3 p = (1.0 - uv.y) * low + uv.y * high;
@@ -236,10 +237,10 @@ struct Weights {
     float p[18], du[18], dv[18], duu[18], duv[18], dvv[18];
 };
 
-LimitFrame weighted(Weights w, int count, bool isTexture, ControlPoints points) {
+LimitFrame weighted(Weights w, int count, ControlPoints points) {
     precise LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(isTexture, points, uint(i));
+        vec3 c = controlPoint(points, uint(i));
         f.p += w.p[i] * c;
         f.pu += w.du[i] * c;
         f.pv += w.dv[i] * c;
@@ -281,7 +282,7 @@ void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2
     }
 }
 
-LimitFrame trianglePatch(bool isTexture, ControlPoints points, vec2 uv) {
+LimitFrame trianglePatch(ControlPoints points, vec2 uv) {
     Weights w;
     int count = 18;
     if (points.type == kPatchGregoryTriangle) {
@@ -308,7 +309,7 @@ LimitFrame trianglePatch(bool isTexture, ControlPoints points, vec2 uv) {
             w.duu[i] = duu[i], w.duv[i] = duv[i], w.dvv[i] = dvv[i];
         }
     }
-    return weighted(w, count, isTexture, points);
+    return weighted(w, count, points);
 }
 #endif
 
@@ -316,13 +317,13 @@ LimitFrame trianglePatch(bool isTexture, ControlPoints points, vec2 uv) {
 
 // --- any patch, by OpenSubdiv's generic basis: the check of the forms above -----------------------------------------
 
-LimitFrame generic(bool isTexture, ControlPoints points, vec2 uv) {
+LimitFrame generic(ControlPoints points, vec2 uv) {
     float p[20], du[20], dv[20], duu[20], duv[20], dvv[20];
     OsdPatchParam param = OsdPatchParamInit(0, int(points.boundary << 7), 0.0);
     int count = OsdEvaluatePatchBasisNormalized(int(points.type), param, uv.x, uv.y, p, du, dv, duu, duv, dvv);
     LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(isTexture, points, uint(i));
+        vec3 c = controlPoint(points, uint(i));
         f.p += p[i] * c;
         f.pu += du[i] * c;
         f.pv += dv[i] * c;
@@ -334,30 +335,23 @@ LimitFrame generic(bool isTexture, ControlPoints points, vec2 uv) {
 }
 #endif
 
-// The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it.
-LimitFrame patchFrame(bool isTexture, PatchPoints patchPoints, vec2 uv) {
-    ControlPoints points = patchPoints.surface;
-    if (isTexture) points = patchPoints.texture;
+// The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it (in x and y).
+LimitFrame patchFrame(ControlPoints points, vec2 uv) {
 #ifdef RELIEF_TRIANGLES
-    return trianglePatch(isTexture, points, uv);
+    return trianglePatch(points, uv);
 #else
 #ifdef RELIEF_GENERIC_BASIS
-    if (kGenericBasis) return generic(isTexture, points, uv);
+    if (kGenericBasis) return generic(points, uv);
 #endif
     if (points.type == kPatchRegular) {
-        if (isTexture) return regularTexture(points, uv);
+        if (points.array == kTexturePoints) return regularTexture(points, uv);
         return regular(points, uv);
     }
-    if (points.type == kPatchQuads) return bilinear(isTexture, points, uv);
-    return gregory(isTexture, points, uv);
+    if (points.type == kPatchQuads) return bilinear(points, uv);
+    return gregory(points, uv);
 #endif
 }
 
 // Derivatives by the face's (u,v) from those by the patch's own.
 LimitFrame byFace(LimitFrame f, float k) { return LimitFrame(f.p, k * f.pu, k * f.pv, k * k * f.puu, k * k * f.puv, k * k * f.pvv); }
-
-LimitFrame limit(uint face, vec2 uv) {
-    Leaf leaf = findLeaf(face, uv);
-    return byFace(patchFrame(false, fetchPatch(leaf.patchIndex), leaf.uv), leaf.scale);
-}
 #endif

@@ -2,7 +2,7 @@
 #ifndef RELIEF_LOCATIONS_GLSL
 #define RELIEF_LOCATIONS_GLSL
 
-#include "scene.glsl"
+#include "inputs.glsl"
 #include "shared/rates.h"
 
 #ifdef RELIEF_TRIANGLES
@@ -24,12 +24,12 @@ struct SampleLocation {
     float level;     // of the height map: continuous over the surface, the corners' own along edges and inside faces
 };
 
-float cornerLevel(uint corner) { return kHasMips ? texelFetch(levelTexels, int(corner)).x : 0.0; }
+float cornerLevel(uint corner) { return kHasMips ? levelsAt(corner).x : 0.0; }
 
 // Corners of a quad are in the order of its sides; of a triangle three are used.
 float faceLevel(uint face, vec2 uv) {
     if (!kHasMips) return 0.0;
-    vec4 c = texelFetch(levelTexels, int(scene.firstFaceLevel + face));
+    vec4 c = levelsAt(inputs.rates.firstFaceLevel + face);
 #ifdef RELIEF_TRIANGLES
     return (1.0 - uv.x - uv.y) * c.x + uv.x * c.y + uv.y * c.z;
 #else
@@ -78,7 +78,7 @@ struct SideRate {
 SideRate sideRate(uint sideEntry) {
     float rate = edgeRate(sideEntry & kSideEdgeMask);
     uint halves = (sideEntry & kSideSplit) != 0u ? 2u : 1u;
-    return SideRate(halves * segmentsOf(rate, scene.isFractional), float(halves) * rate);
+    return SideRate(halves * segmentsOf(rate, inputs.rates.isFractional), float(halves) * rate);
 }
 
 // Sample k along a side, in the side's direction.

@@ -34,14 +34,14 @@ uint findSide(out float x) {
 vec2 facePoint() {
     vec3 c = gl_TessCoord;
 #ifdef RELIEF_TRIANGLES
-    if (scene.isFractional != 0u) {
+    if (inputs.rates.isFractional != 0u) {
         float n = gl_TessLevelInner[0];
         c = vec3(spaced(c.x, n, insideRates.x), spaced(c.y, n, insideRates.x), spaced(c.z, n, insideRates.x));
         c /= c.x + c.y + c.z;
     }
     return c.yz;
 #else
-    if (scene.isFractional != 0u)
+    if (inputs.rates.isFractional != 0u)
         return vec2(spaced(c.x, gl_TessLevelInner[0], insideRates.x), spaced(c.y, gl_TessLevelInner[1], insideRates.y));
     return c.xy;
 #endif
@@ -57,5 +57,5 @@ void main() {
         SideRate rate = sideRate(entry);
         location = sideLocation(entry, uint(round(x * float(rate.segments))), rate);
     }
-    emitVertex(face, uv, location, uint(ceil(max(insideRates.x, insideRates.y))), 0u);
+    emitVertex(face, uv, location, uint(ceil(max(insideRates.x, insideRates.y))));
 }

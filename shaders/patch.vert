@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "scene.glsl"
+#include "inputs.glsl"
 
 // One point a face: its number travels to the control stage.
 layout(location = 0) flat out uint face;
 
-void main() { face = texelFetch(drawFaceTexels, gl_VertexIndex).x; }
+void main() { face = drawFace(gl_VertexIndex); }

@@ -8,15 +8,15 @@ layout(local_size_x = 64) in;
 
 // sum_i w_i J_i (rest + sum_k m_k offset_k)  (glTF 2.0, sections 3.7.2.2 and 3.7.3.3).
 vec3 rigged(uint point) {
-    vec3 p = texelFetch(restTexels, int(point)).xyz;
-    for (uint k = 0u; k < morphCount; ++k)
-        p += uploaded(k) * texelFetch(restTexels, int((k + 1u) * pointCount + point)).xyz;
-    return influenceCount == 0u ? p : vec4(p, 1.0) * blendedJoints(point);
+    vec3 p = restAt(point).xyz;
+    for (uint k = 0u; k < push.morphCount; ++k)
+        p += uploaded(k) * restAt((k + 1u) * push.pointCount + point).xyz;
+    return push.influenceCount == 0u ? p : vec4(p, 1.0) * blendedJoints(point);
 }
 
 void main() {
     uint point = gl_GlobalInvocationID.x;
-    if (point >= pointCount) return;
-    vec3 p = isRigged != 0u ? rigged(point) : vec3(uploaded(3u * point), uploaded(3u * point + 1u), uploaded(3u * point + 2u));
-    target.at[firstPoint + point] = vec4(p, 1.0);
+    if (point >= push.pointCount) return;
+    vec3 p = push.isRigged != 0u ? rigged(point) : vec3(uploaded(3u * point), uploaded(3u * point + 1u), uploaded(3u * point + 2u));
+    push.target.at[push.firstPoint + point] = vec4(p, 1.0);
 }

@@ -4,24 +4,24 @@
 #include "pose.glsl"
 
 // Refined and local points from those of the cage: a block of the stencil matrix after another (see shared/pose.h).
-layout(local_size_x_id = 7) in;
+layout(local_size_x_id = kIdGroupSize) in;
 
 // Entries of every block of the dispatch, for devices that run a subgroup of 8 lanes: a workgroup is such a subgroup, its lanes
 // fetch the points together, and the straight code that follows reads each of them once for all lanes. 0: blocks of any size, a
 // lane a row, points from the texture caches.
-layout(constant_id = 0) const uint kEntries = 0u;
+layout(constant_id = kIdEntries) const uint kEntries = 0u;
 
-layout(set = 0, binding = kPoseWords) uniform usamplerBuffer treeTexels;
-layout(set = 0, binding = kPoseWeights) uniform samplerBuffer weightTexels;
+RELIEF_TABLE(kPosePoints, vec4, pointAt)
+RELIEF_TABLE(kPoseWords, uint, word)
+RELIEF_TABLE(kPoseWeights, vec4, weightsAt)
 
-uint word(uint i) { return texelFetch(treeTexels, int(i)).x; }
-vec3 entryPoint(uint i) { return texelFetch(pointTexels, int(firstPoint + word(firstEntry + i))).xyz; }
+vec3 entryPoint(uint i) { return pointAt(push.firstPoint + word(push.firstEntry + i)).xyz; }
 // Weights of four entries, e a multiple of 4, in one row of their block.
-vec4 weightsOf(uint e, uint row) { return texelFetch(weightTexels, int(4u * e + row)); }
+vec4 weightsOf(uint e, uint row) { return weightsAt(4u * e + row); }
 
 void storeRow(uint block, uint lane, vec3 p) {
-    uint row = word(firstTarget + kBlockRows * block + lane);
-    if (row != kNoPatch) target.at[firstPoint + pointCount + row] = vec4(p, 1.0);
+    uint row = word(push.firstTarget + kBlockRows * block + lane);
+    if (row != kNoPatch) push.target.at[push.firstPoint + push.pointCount + row] = vec4(p, 1.0);
 }
 
 // Weights add up to 1: points are taken as offsets from one of them, so that rounding scales with the row's extent and not with
@@ -29,8 +29,8 @@ void storeRow(uint block, uint lane, vec3 p) {
 
 void blendLooped() {
     uint invocation = gl_WorkGroupID.x * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    uint block = firstBlock + invocation / kBlockRows, lane = invocation % kBlockRows;
-    if (block >= endBlock) return;
+    uint block = push.firstBlock + invocation / kBlockRows, lane = invocation % kBlockRows;
+    if (block >= push.endBlock) return;
     uint first = word(block), last = word(block + 1u);
     vec3 origin = entryPoint(first), sum = vec3(0);
     for (uint e = first; e < last; e += 4u) {
@@ -44,7 +44,7 @@ const uint kLanes = 8u, kMostEntries = 32u;
 shared vec3 points[kMostEntries];
 
 void blendStraight() {
-    uint lane = gl_LocalInvocationID.x, block = firstBlock + gl_WorkGroupID.x, first = firstBlockEntry + kEntries * gl_WorkGroupID.x;
+    uint lane = gl_LocalInvocationID.x, block = push.firstBlock + gl_WorkGroupID.x, first = push.firstBlockEntry + kEntries * gl_WorkGroupID.x;
     [[unroll]] for (uint e = 0u; e < kEntries; e += kLanes) points[e + lane] = entryPoint(first + e + lane);
     barrier();
     vec3 origin = points[0], low = vec3(0), high = vec3(0);

@@ -7,24 +7,26 @@
 
 layout(local_size_x = 64) in;
 
+layout(push_constant, scalar) uniform PushBlock { SamplePush push; };
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= passNumber) return;
-    uint face = scene.sampleQueries.at[i].face;
-    vec2 uv = scene.sampleQueries.at[i].uv;
+    if (i >= push.count) return;
+    uint face = inputs.targets.sampleQueries.at[i].face;
+    vec2 uv = inputs.targets.sampleQueries.at[i].uv;
     DisplacedSample s = displaced(face, uv, insideLocation(face, uv));
-    scene.sampleResults.at[i].p = s.p;
-    scene.sampleResults.at[i].pu = s.frame.pu;
-    scene.sampleResults.at[i].pv = s.frame.pv;
-    scene.sampleResults.at[i].puu = s.frame.puu;
-    scene.sampleResults.at[i].puv = s.frame.puv;
-    scene.sampleResults.at[i].pvv = s.frame.pvv;
-    scene.sampleResults.at[i].n = s.n;
-    scene.sampleResults.at[i].st = s.st;
-    scene.sampleResults.at[i].stu = s.jacobian[0];
-    scene.sampleResults.at[i].stv = s.jacobian[1];
-    scene.sampleResults.at[i].h = s.h;
-    scene.sampleResults.at[i].gradient = s.gradient;
-    scene.sampleResults.at[i].q = s.q;
-    scene.sampleResults.at[i].m = s.normal;
+    inputs.targets.sampleResults.at[i].p = s.p;
+    inputs.targets.sampleResults.at[i].pu = s.frame.pu;
+    inputs.targets.sampleResults.at[i].pv = s.frame.pv;
+    inputs.targets.sampleResults.at[i].puu = s.frame.puu;
+    inputs.targets.sampleResults.at[i].puv = s.frame.puv;
+    inputs.targets.sampleResults.at[i].pvv = s.frame.pvv;
+    inputs.targets.sampleResults.at[i].n = s.n;
+    inputs.targets.sampleResults.at[i].st = s.st;
+    inputs.targets.sampleResults.at[i].stu = s.jacobian[0];
+    inputs.targets.sampleResults.at[i].stv = s.jacobian[1];
+    inputs.targets.sampleResults.at[i].h = s.h;
+    inputs.targets.sampleResults.at[i].gradient = s.gradient;
+    inputs.targets.sampleResults.at[i].q = s.q;
+    inputs.targets.sampleResults.at[i].m = s.normal;
 }

@@ -1,10 +1,11 @@
-// How the texels of height maps are kept on the device: in 32-bit words, row after row from the top, level after level, each
-// level from a whole word on. Every device reads the same numbers: no sampler takes part, which may round as it likes.
+// How the texels of height maps are kept on the device: in 32-bit words, row after row from the top, level after level,
+// each level from a whole word on. Every device reads the same numbers: no sampler takes part, which may round as it
+// likes.
 //
-//   kMapReal      a word a texel: its bits
-//   kMapHalf      two texels a word, the first one in the low half: half floats
-//   kMapUnorm16   the same: whole numbers 0..65535
-//   kMapUnorm8    four texels a word, the first one lowest: whole numbers 0..255
+//   kMapReal      one word per texel: its bits
+//   kMapHalf      two texels per word, the first one in the low half: half floats
+//   kMapUnorm16   two texels per word, as above: whole numbers 0..65535
+//   kMapUnorm8    four texels per word, the first one lowest: whole numbers 0..255
 //   kMapBc4       two words for 4 x 4 texels, numbers 0..255 (Khronos Data Format Specification 1.3, "BC4 unsigned"):
 //                 red0:8 red1:8 codes:16 | codes:32, the 16 codes of three bits each from the lowest bit on
 #ifndef RELIEF_SHARED_MAPS_H
@@ -24,7 +25,21 @@ RELIEF_CONSTANT uint kMapBc4 = 4u;
 
 RELIEF_CONSTANT uint kMostMapLevels = 16u;
 
+// One map in the words of kBindHeight: h = scale * (number - mid) in cage units, of the numbers that the words hold.
+struct MapRecord {
+    ivec2 size; // texels of level 0; a level is half as large as the one before, at least 1
+    float mid;
+    float scale;
+    uint repeats; // 1 repeat, 0 clamp
+    uint levelCount;
+    uint firstWords[kMostMapLevels]; // where each level's words begin
+};
+
+// Maps of one model. A lookup chooses its record by one function, mapAt() of heights.glsl.
+RELIEF_CONSTANT uint kMostMaps = 1u;
+
 #ifdef __cplusplus
+static_assert(sizeof(MapRecord) == 24 + 4 * kMostMapLevels);
 } // namespace relief
 #endif
 #endif

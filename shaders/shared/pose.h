@@ -8,8 +8,8 @@
 namespace relief {
 #endif
 
-// Set 0 of pose_cage.comp and pose_points.comp: texel buffers.
-RELIEF_CONSTANT uint kPoseUpload = 0u;     // floats: the posed cage, or morph weights and three rows of four a joint
+// Set 0 of pose_cage.comp, pose_mesh.comp and pose_points.comp: tables (shaders/tables.glsl).
+RELIEF_CONSTANT uint kPoseUpload = 0u;     // floats: the posed cage, or morph weights and three rows of four per joint
 RELIEF_CONSTANT uint kPoseRest = 1u;       // the rig's rest points, then the offsets of its morph targets
 RELIEF_CONSTANT uint kPoseJoints = 2u;     // joints of each point
 RELIEF_CONSTANT uint kPoseInfluences = 3u; // and their weights
@@ -25,7 +25,27 @@ RELIEF_CONSTANT uint kPoseBindCount = 7u;
 RELIEF_CONSTANT uint kBlockRows = 16u;
 RELIEF_CONSTANT uint kEntriesTogether = 8u;
 
+#ifndef __cplusplus
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Points { vec4 at[]; };
+#endif
+
+// Push constants of all three.
+struct PosePush {
+    RELIEF_ADDRESS(Points) target; // all posed points
+    uint firstPoint;               // of the set that is written; pose_mesh.comp: of the dispatch
+    uint pointCount;               // of the cage, or of the mesh
+    uint firstBlock;               // of the dispatch
+    uint endBlock;
+    uint firstBlockEntry;
+    uint firstTarget; // words of kPoseWords
+    uint firstEntry;
+    uint influenceCount; // joints per point
+    uint morphCount;
+    uint isRigged; // 1: the upload is morph weights and joints
+};
+
 #ifdef __cplusplus
+static_assert(sizeof(PosePush) == 48);
 } // namespace relief
 #endif
 #endif

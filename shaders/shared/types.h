@@ -15,6 +15,7 @@ using uint = std::uint32_t;
 // Formulas: in C++ the shared functions are double precision, on the device single.
 #define RELIEF_SHARED_FUNCTION inline
 #define RELIEF_CONSTANT inline constexpr
+#define RELIEF_ADDRESS(array) std::uint64_t // of an array on the device
 namespace relief::formulas {
 using real = double;
 using real2 = glm::dvec2;
@@ -26,6 +27,9 @@ using real2x2 = glm::dmat2;
 
 #define RELIEF_SHARED_FUNCTION
 #define RELIEF_CONSTANT const
+#define RELIEF_ARRAY(name, type)                                                                                       \
+    layout(buffer_reference, scalar, buffer_reference_align = 4) buffer name { type at[]; };
+#define RELIEF_ADDRESS(array) array
 #define real float
 #define real2 vec2
 #define real3 vec3

@@ -139,15 +139,18 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
     if (polygons_) loaded_.dense = polygons_->at(secondsOf(frames_.front(), surface.pose));
 
     device_ = std::make_unique<Device>(DeviceDesc{.name = picture_.device});
-    model_ = std::make_unique<Model>(*device_, ModelDesc{.surface = &loaded_.surface,
-                                                         .cagePositions = loaded_.cage.positions,
-                                                         .height = loaded_.heightMap(),
-                                                         .dense = loaded_.dense ? &*loaded_.dense : nullptr,
-                                                         .albedo = shading_.albedo ? &*shading_.albedo : nullptr});
+    const Image* albedo = shading_.albedo ? &*shading_.albedo : nullptr;
+    if (loaded_.dense)
+        model_ = std::make_unique<Model>(MeshModel(*device_, {.mesh = &*loaded_.dense, .albedo = albedo}));
+    else
+        model_ = std::make_unique<Model>(SurfaceModel(*device_, {.surface = &loaded_.surface,
+                                                                 .cagePositions = loaded_.cage.positions,
+                                                                 .height = loaded_.heightMap(),
+                                                                 .albedo = albedo}));
     if (polygons_)
-        meshPoser_ = std::make_unique<MeshPoser>(*device_, *model_, *loaded_.dense, Rig());
+        meshPoser_ = std::make_unique<MeshPoser>(*device_, std::get<MeshModel>(*model_), *loaded_.dense, Rig());
     else if (loaded_.animation)
-        poser_ = std::make_unique<Poser>(*device_, *model_,
+        poser_ = std::make_unique<Poser>(*device_, std::get<SurfaceModel>(*model_),
                                          PoserDesc{.surface = &loaded_.surface,
                                                    .rig = loaded_.animation->rig(),
                                                    .heightSpace = heightSpaceOf(picture_.heightSpace),
@@ -199,7 +202,7 @@ DrawnFrame FrameMaker::draw(int frame) {
         drawn.poseMs = poser_->stats().milliseconds;
     }
     if (meshPoser_) posePolygons(frame, drawn);
-    drawn.picture = renderer_->render(*model_, optionsAt(frame));
+    drawn.picture = renderer_->render(Instance(*model_, materialOf(picture_)), optionsAt(frame));
     return drawn;
 }
 

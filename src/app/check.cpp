@@ -33,7 +33,7 @@ std::vector<std::string> pathsOf(const CheckArgs& args, const DeviceTraits& trai
 /// Measures one path after another.
 class PathChecker {
 public:
-    PathChecker(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args)
+    PathChecker(Device& device, const SurfaceModel& model, const Loaded& loaded, const CheckArgs& args)
         : device_(device), model_(model), args_(args), rater_(device), capturer_(device),
           renderer_(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1}),
           canSeeCracks_(enclosesVolume(loaded.surface)) {
@@ -71,7 +71,7 @@ private:
     }
 
     Device& device_;
-    const Model& model_;
+    const SurfaceModel& model_;
     const CheckArgs& args_;
     EdgeRater rater_;
     Capturer capturer_;
@@ -82,7 +82,7 @@ private:
 
 // --- points
 
-std::vector<SampleResult> sampleDevice(Device& device, const Model& model, std::span<const SampleQuery> queries,
+std::vector<SampleResult> sampleDevice(Device& device, const SurfaceModel& model, std::span<const SampleQuery> queries,
                                        NormalKind normal) {
     SurfaceSampler sampler(device);
     std::vector<SampleResult> results;
@@ -96,7 +96,7 @@ std::vector<SampleResult> sampleDevice(Device& device, const Model& model, std::
 }
 
 /// Frames, curvature, corners and seams from the device's answers; returns the heat map that is asked for.
-std::optional<Picture> checkPoints(Device& device, const Model& model, const Loaded& loaded, const CheckArgs& args,
+std::optional<Picture> checkPoints(Device& device, const SurfaceModel& model, const Loaded& loaded, const CheckArgs& args,
                                    Certificate& certificate) {
     const SurfaceSamples samples = sampleEverywhere(loaded.surface, args.pointCount);
     const NormalKind normal = normalKind(args.triangles.normal);
@@ -119,7 +119,7 @@ std::optional<Picture> checkPoints(Device& device, const Model& model, const Loa
 /// Writes the heat map when all else has gone well.
 Certificate certify(const CheckArgs& args, const Loaded& loaded) {
     Device device({.name = args.device});
-    const Model model(
+    const SurfaceModel model(
         device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
     const std::vector<std::string> paths = pathsOf(args, device.traits());
     Progress progress("checking", 1 + paths.size(), args.output.progress);

@@ -66,7 +66,7 @@ std::string faultOf(const EmptyView& view) {
     }
     if (relativeWidth(view.points, size) < kNoWidth) return "all of its points lie on one line, so it has no area";
     if (size > kFarthestDrawn)
-        return fmt::format("it heightBounds over {:.3g} cage units, too far for 32-bit floats; make its heights smaller",
+        return fmt::format("it reaches over {:.3g} cage units, too far for 32-bit floats; make its heights smaller",
                            size * view.coordinates.unit);
     return "";
 }

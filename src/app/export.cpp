@@ -28,7 +28,7 @@ struct Exported {
     double loadSeconds = 0, surfaceSeconds = 0, rateMs = 0, diceMs = 0, writeSeconds = 0;
 };
 
-EdgeRates ratesOf(Device& device, const Model& model, const Loaded& loaded, const ExportArgs& args, double& rateMs) {
+EdgeRates ratesOf(Device& device, const SurfaceModel& model, const Loaded& loaded, const ExportArgs& args, double& rateMs) {
     View view;
     CameraArgs camera = args.camera;
     enter(loaded.coordinates(), camera);
@@ -45,9 +45,9 @@ Exported dice(const ExportArgs& args) {
              args.surface.cage);
     progress.advance();
     Device device({.name = args.device});
-    Model model(device,
+    SurfaceModel model(device,
                 {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
-    const std::unique_ptr<Poser> poser = stretchHeights(device, model, loaded, args.heightSpace);
+    const std::unique_ptr<Poser> poser = stretchHeights(device, &model, loaded, args.heightSpace);
     progress.advance();
 
     Exported exported{

@@ -84,7 +84,7 @@ Picture drawHeatmap(Device& device, const DenseMesh& mesh) {
     options.camera = frameCamera(points, {}, 1);
     options.lighting.castsShadows = false;
     for (const dvec3& p : points) options.bounds.add(p);
-    const Model model(device, {.dense = &mesh});
+    const MeshModel model(device, {.mesh = &mesh});
     Renderer renderer(device, {.width = kHeatmapSide, .height = kHeatmapSide, .shadowSide = 1});
     return renderer.render(model, options);
 }

@@ -290,11 +290,12 @@ HeightSpace heightSpaceOf(const std::string& word) {
     return word == "stretch" ? HeightSpace::stretch : HeightSpace::absolute;
 }
 
-std::unique_ptr<Poser> stretchHeights(Device& device, Model& model, const Loaded& loaded,
+std::unique_ptr<Poser> stretchHeights(Device& device, SurfaceModel* model, const Loaded& loaded,
                                       const std::string& heightSpace) {
-    if (heightSpaceOf(heightSpace) == HeightSpace::absolute || loaded.restPositions.empty() || !loaded.height)
+    if (model == nullptr || heightSpaceOf(heightSpace) == HeightSpace::absolute || loaded.restPositions.empty() ||
+        !loaded.height)
         return nullptr;
-    auto poser = std::make_unique<Poser>(device, model,
+    auto poser = std::make_unique<Poser>(device, *model,
                                          PoserDesc{.surface = &loaded.surface,
                                                    .heightSpace = HeightSpace::stretch,
                                                    .restPositions = loaded.restPositions});

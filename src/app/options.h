@@ -91,6 +91,7 @@ void addDevice(CLI::App& app, std::string& name);
 void addPicture(CLI::App& app, PictureArgs& args);
 /// What a picture shows: path, camera (see enter) and light are the same for all frames.
 RenderOptions renderOptions(const PictureArgs& args, const Device& device, const std::vector<dvec3>& points);
+Material materialOf(const PictureArgs& picture);
 Finish finishOf(const PictureArgs& args);
 /// Throws Failure::usage unless pictures are .png or .exr, and .exr where layers are asked for.
 void checkPicturePath(const std::string& path, const PictureArgs& args);
@@ -164,7 +165,7 @@ std::vector<dvec3> outlineOfAll(const Loaded& loaded);
 void holdCamera(CameraArgs& camera, std::span<const dvec3> points, bool isTurn);
 /// Heights that stretch with a posed cage are the device's to make: null where heights are absolute or the cage at
 /// rest.
-std::unique_ptr<Poser> stretchHeights(Device& device, Model& model, const Loaded& loaded,
+std::unique_ptr<Poser> stretchHeights(Device& device, SurfaceModel* model, const Loaded& loaded,
                                       const std::string& heightSpace);
 /// As --map-format says it.
 std::string wordOf(MapFormat format);

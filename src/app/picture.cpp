@@ -77,11 +77,16 @@ RenderOptions renderOptions(const PictureArgs& picture, const Device& device, co
     options.lighting.keyAzimuth = picture.light.empty() ? picture.camera.options.azimuth - 55 : picture.light[0];
     options.lighting.keyElevation = picture.light.empty() ? 50 : picture.light[1];
     options.lighting.castsShadows = !picture.hasNoShadows;
-    if (!picture.albedo.empty()) options.material.albedo = vec3(1);
-    if (!picture.color.empty()) options.material.albedo = vec3(picture.color[0], picture.color[1], picture.color[2]);
     options.layers = layersOf(picture.layers);
-    options.material.roughness = float(picture.roughness);
     return options;
+}
+
+Material materialOf(const PictureArgs& picture) {
+    Material material;
+    if (!picture.albedo.empty()) material.albedo = vec3(1);
+    if (!picture.color.empty()) material.albedo = vec3(picture.color[0], picture.color[1], picture.color[2]);
+    material.roughness = float(picture.roughness);
+    return material;
 }
 
 Finish finishOf(const PictureArgs& args) {

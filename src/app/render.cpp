@@ -89,17 +89,20 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     RenderOptions options = renderOptions(picture, device, points);
     options.unit = loaded.coordinates().unit;
     if (shading.environment) options.lighting.environment = &*shading.environment;
-    Model model(device, {.surface = &loaded.surface,
-                         .cagePositions = loaded.cage.positions,
-                         .height = loaded.heightMap(),
-                         .dense = loaded.dense ? &*loaded.dense : nullptr,
-                         .albedo = shading.albedo ? &*shading.albedo : nullptr});
-    const std::unique_ptr<Poser> poser = stretchHeights(device, model, loaded, args.picture.heightSpace);
+    const Image* albedo = shading.albedo ? &*shading.albedo : nullptr;
+    Model model = loaded.dense ? Model(MeshModel(device, {.mesh = &*loaded.dense, .albedo = albedo}))
+                               : Model(SurfaceModel(device, {.surface = &loaded.surface,
+                                                             .cagePositions = loaded.cage.positions,
+                                                             .height = loaded.heightMap(),
+                                                             .albedo = albedo}));
+    const SurfaceModel* onDevice = surfaceOf(model);
+    const std::unique_ptr<Poser> poser =
+        stretchHeights(device, std::get_if<SurfaceModel>(&model), loaded, args.picture.heightSpace);
     Drawn drawn{.device = device.traits().name,
                 .mapFormat = loaded.height ? wordOf(loaded.height->format) : "",
                 .cageBytes = loaded.cage.byteCount(),
-                .mapBytes = model.heightBytes(),
-                .deviceBytes = model.byteCount(),
+                .mapBytes = onDevice != nullptr && onDevice->height ? onDevice->height->words.buffer.bytes : 0,
+                .deviceBytes = byteCountOf(model),
                 .loadSeconds = loaded.loadSeconds,
                 .surfaceSeconds = loaded.surfaceSeconds,
                 .tableSeconds = loaded.surface.tableSeconds};
@@ -110,7 +113,7 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     progress.advance();
     Renderer renderer(device, {.width = args.picture.camera.size[0], .height = args.picture.camera.size[1]});
     device.startPeak();
-    drawn.picture = renderer.render(model, options);
+    drawn.picture = renderer.render(Instance(model, materialOf(args.picture)), options);
     drawn.peakDeviceBytes = device.peakBytes();
     const std::vector<int>& size = args.picture.camera.size;
     drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size[0], size[1], coordinates});

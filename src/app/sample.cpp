@@ -84,7 +84,7 @@ private:
 };
 
 /// One CSV row for each query, with the device's frames.
-Rows sampledRows(Device& device, const Model& model, const std::vector<SampleQuery>& queries, const SampleArgs& args,
+Rows sampledRows(Device& device, const SurfaceModel& model, const std::vector<SampleQuery>& queries, const SampleArgs& args,
                  const Coordinates& coordinates) {
     SurfaceSampler sampler(device);
     Progress progress("sampling", queries.size(), args.output.progress);
@@ -108,7 +108,7 @@ int sample(const SampleArgs& args) {
     if (loaded.dense)
         fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.surface.cage);
     Device device({.name = args.device});
-    const Model model(
+    const SurfaceModel model(
         device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
     std::string text;
     try {

@@ -200,10 +200,10 @@ std::size_t ObjScanner::resolveIndex(Kind kind, std::string_view word) {
         const std::size_t back = std::size_t(-std::int64_t(*index));
         if (back <= values.count) return values.count - back;
         if (kind != normal)
-            failHere("{} index {} heightBounds before the first; {} are defined above this line{}", kKindNames[kind], *index,
+            failHere("{} index {} reaches before the first; {} are defined above this line{}", kKindNames[kind], *index,
                      values.count, slashHint(kind));
         if (lostNormal_.empty())
-            lostNormal_ = fmt::format("{}:{}: normal index {} heightBounds before the first", name_, line_, *index);
+            lostNormal_ = fmt::format("{}:{}: normal index {} reaches before the first", name_, line_, *index);
         return 0;
     }
     if (std::size_t(*index) > values.largestIndex) {

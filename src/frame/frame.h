@@ -1,9 +1,10 @@
-// One picture = an ordered list of passes over a model: rates, shadow, surface, light, read-back.
+// One picture = an ordered list of passes over instances: rates, shadow, surface, light, read-back.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <span>
+#include <variant>
 
 #include "triangles/triangles.h"
 
@@ -63,6 +64,25 @@ struct Material {
     float roughness = 0.4f;
 };
 
+/// A surface or a mesh that stands somewhere in the world. The model has to outlive the picture's rendering.
+struct Instance {
+    const SurfaceModel* surface = nullptr; ///< one of the two
+    const MeshModel* mesh = nullptr;
+    Material material;
+    mat4 toWorld{1}; ///< a rotation, a uniform scale above 0 and a translation
+
+    Instance(const SurfaceModel& surface, Material material = {}, const mat4& toWorld = mat4(1))
+        : surface(&surface), material(material), toWorld(toWorld) {}
+    Instance(const MeshModel& mesh, Material material = {}, const mat4& toWorld = mat4(1))
+        : mesh(&mesh), material(material), toWorld(toWorld) {}
+    Instance(const Model& model, Material material = {}, const mat4& toWorld = mat4(1))
+        : surface(std::get_if<SurfaceModel>(&model)), mesh(std::get_if<MeshModel>(&model)), material(material),
+          toWorld(toWorld) {}
+};
+
+/// Instances that one picture can hold.
+inline constexpr std::size_t kMostInstances = 256;
+
 // --- pictures -----------------------------------------------------------------------------------------------------
 
 /// What a pixel sees at its centre besides light.
@@ -81,8 +101,7 @@ struct RenderOptions : TriangleOptions {
     Show show = Show::shaded;
     Camera camera;
     Lighting lighting;
-    Material material;
-    Bounds bounds; ///< of the object: what the shadow map covers
+    Bounds bounds; ///< of all instances in the world: what the shadow map covers
     std::vector<Layer> layers;
     double unit = 1; ///< cage units per unit of the model: layers hold depths and heights in cage units
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
@@ -125,13 +144,16 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
-    /// Throws Failure::usage for a rate or path that the device cannot do.
-    Picture render(const Model& model, const RenderOptions& options);
+    /// Throws Failure::usage for a rate or path that the device cannot do, and for more than kMostInstances.
+    Picture render(std::span<const Instance> instances, const RenderOptions& options);
+    Picture render(const Instance& instance, const RenderOptions& options) {
+        return render(std::span(&instance, 1), options);
+    }
 
     /// Pixels that see a crack, of a closed surface: front faces count up and back faces down along each line of sight,
     /// which adds up to nothing however the surface folds. Before that, vertices whose position has bits of odd parity
     /// move aside by `shift` (cage units), so that two samples that differ in the last place part visibly.
-    std::uint64_t crackPixels(const Model& model, const RenderOptions& options, const vec3& shift);
+    std::uint64_t crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift);
 
 private:
     struct Parts;

@@ -19,46 +19,58 @@ void scaleLengths(std::vector<float>& values, double unit) {
 } // namespace
 
 void Renderer::Parts::layerPass(VkCommandBuffer commands, const Frame& frame) {
-    Rendering rendering(commands, trianglesInFlight(frame),
-                        {.colors = {attachment(layerTargets->normals), attachment(layerTargets->places)},
-                         .depth = attachment(layerTargets->depths),
-                         .size = size()});
-    draw(rendering, frame, Pass::layers);
+    Rendering::Targets all{.colors = {attachment(layerTargets->normals), attachment(layerTargets->surfacePoints)},
+                           .depth = attachment(layerTargets->depths),
+                           .size = size()};
+    if (frame.hasInstances()) all.colors.push_back(attachment(*layerTargets->instances));
+    Rendering rendering = begin(commands, frame, std::move(all));
+    draw(rendering, frame, DrawPass::layers);
     rendering.end();
 }
 
+const Pipeline& Renderer::Parts::layerPipeline(const Frame& frame, const Drawn& drawn) {
+    ShaderConstants constants = constantsOf(frame, drawn, DrawPass::layers);
+    constants.wantsTexCoords = false;
+    constants.hasMotion = drawn.surface != nullptr && drawn.surface->hasMotion();
+    return computePipeline("layers.comp", drawn.isTriangles(), constants);
+}
+
+/// Each instance writes the pixels that see it, the first one also those that see nothing.
 void Renderer::Parts::layerValuesPass(VkCommandBuffer commands, const Frame& frame) {
-    const Pipeline& pipeline = pipelineOf(frame, Pass::layerValues);
-    bind(commands, pipeline, frame.set);
-    pushConstants(commands, pipeline, {.passRows = frame.model.isDense() ? 1u : 0u});
-    vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+    for (const Drawn& drawn : frame.drawn) {
+        bind(commands, layerPipeline(frame, drawn), drawn.set);
+        vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+    }
     barrier(commands);
 }
 
-/// Vertices of a diced mesh belong to several faces, which layers tell apart: there the grid draws the same surface.
-void Renderer::Parts::renderLayers(const Model& model, const RenderOptions& options, Picture& picture) {
+/// The surface of the picture at the same rates, with one sample per pixel. Vertices of a diced mesh belong to several
+/// faces, which layers keep apart: there the grid draws the same surface.
+void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
     if (!layerTargets) layerTargets = makeLayerTargets(device, desc);
-    RenderOptions own = options;
-    if (own.path == Path::dice) own.path = Path::grid;
-    own.show = Show::shaded;
-    Frame frame{.model = model, .options = own};
-    describeView(frame);
-    frame.scene.layerTarget = layerTargets->values.address;
-    frame.bindings[kBindDepths].view = layerTargets->depths.view.get();
-    frame.bindings[kBindNormals].view = layerTargets->normals.view.get();
-    frame.bindings[kBindColors].view = layerTargets->places.view.get();
-    FrameStats stats;
-    if (!model.isDense()) makeTriangles(frame, stats);
-    frame.set = bindingSet(frame, Pass::layers);
+    if (frame.hasInstances() && !layerTargets->instances)
+        layerTargets->instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_1_BIT);
+    const bool wasDiced = frame.path == Path::dice;
+    if (wasDiced) frame.path = Path::grid;
+    FrameStats ignored;
+    for (Drawn& drawn : frame.drawn) {
+        if (wasDiced && drawn.surface != nullptr) makePlan(frame, drawn, ignored);
+        drawn.inputs.targets.layers = layerTargets->values.address;
+        drawn.bindings[kBindDepths].view = layerTargets->depths.view.get();
+        drawn.bindings[kBindNormals].view = layerTargets->normals.view.get();
+        drawn.bindings[kBindColors].view = layerTargets->surfacePoints.view.get();
+        if (frame.hasInstances()) drawn.bindings[kBindInstances].view = layerTargets->instances->view.get();
+    }
+    makeSets(frame, DrawPass::layers);
     device.run([&](VkCommandBuffer commands) {
-        writeScene(commands, scene, frame.scene);
+        writeInputs(commands, frame);
         layerPass(commands, frame);
         layerValuesPass(commands, frame);
     });
     const auto* values = static_cast<const float*>(layerTargets->values.mapped);
     picture.layerValues.assign(values, values + std::size_t(desc.width) * std::size_t(desc.height) * kLayerChannels);
-    if (options.unit != 1) scaleLengths(picture.layerValues, options.unit);
-    picture.layers = options.layers;
+    if (frame.options.unit != 1) scaleLengths(picture.layerValues, frame.options.unit);
+    picture.layers = frame.options.layers;
 }
 
 } // namespace relief

@@ -1,7 +1,7 @@
 // Internal: the matrices and images of a picture in the making.
 #pragma once
 
-#include "frame/frame.h"
+#include "frame/pass_table.h"
 #include "triangles/stages.h"
 
 namespace relief {
@@ -12,27 +12,22 @@ mat4 perspectiveMatrix(const Camera& camera, double aspect);
 /// Parallel projection along the key light, holding the whole object; nearer to the light is larger.
 mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
 
-constexpr VkFormat kNormalFormat = VK_FORMAT_R16G16_SFLOAT;
-constexpr VkFormat kColorFormat = VK_FORMAT_A2B10G10R10_UNORM_PACK32; // codes that shaders/rounding.glsl chooses
-constexpr VkFormat kCrackFormat = VK_FORMAT_R16_SFLOAT;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
-constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM; // even steps suit a parallel projection
-
 /// The images of a picture in the making.
 struct Targets {
-    Texture normals, colors, depths; ///< four samples a pixel, what surface.frag writes
+    Texture normals, colors, depths;  ///< four samples per pixel, what surface.frag writes
+    std::optional<Texture> instances; ///< made when a picture has several
     Texture shadow;
-    Buffer picture; ///< four halves a pixel, mapped
+    Buffer picture; ///< four halves per pixel, mapped
 };
 
 Targets makeTargets(Device& device, const RendererDesc& desc);
+Texture makeInstanceTarget(Device& device, const RendererDesc& desc, VkSampleCountFlagBits samples);
 
-constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-
-/// The images that layers are made from, one sample a pixel; made when layers are first asked for.
+/// The images that layers are made from, one sample per pixel; made when layers are first asked for.
 struct LayerTargets {
-    Texture normals, places, depths; ///< what layers.frag writes
-    Buffer values;                   ///< kLayerChannels floats a pixel, mapped
+    Texture normals, surfacePoints, depths; ///< what layers.frag writes
+    std::optional<Texture> instances;
+    Buffer values; ///< kLayerChannels floats per pixel, mapped
 };
 
 LayerTargets makeLayerTargets(Device& device, const RendererDesc& desc);

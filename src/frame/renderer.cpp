@@ -1,10 +1,8 @@
+#include "frame/renderer_parts.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-
-#include <glm/trigonometric.hpp>
-
-#include "frame/renderer_parts.h"
 
 namespace relief {
 namespace {
@@ -13,11 +11,14 @@ double secondsNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-std::uint32_t showConstant(Show show) {
-    constexpr std::uint32_t kConstants[] = {kShowShaded, kShowNormal, kShowHeight,
-                                            kShowRate,   kShowFaces,  kShowWireframe};
-    return kConstants[int(show)];
+SamplerDesc clampedSampler(VkFilter filter) {
+    return {.filter = filter,
+            .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+            .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
 }
+
+/// Of a rotation with a uniform scale.
+double scaleOf(const mat4& toWorld) { return std::cbrt(glm::determinant(glm::dmat3(mat3(toWorld)))); }
 
 } // namespace
 
@@ -29,89 +30,16 @@ Renderer::Renderer(Device& device, const RendererDesc& desc) {
 
 Renderer::~Renderer() = default;
 
-ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, Pass pass) const {
-    ShaderConstants c = relief::constantsOf(frame.model, frame.options.normal);
-    c.hasMips = frame.rates.hasMips();
-    // Where positions are all that counts no normal is cheaper than the limit normal.
-    if (pass == Pass::shadow || pass == Pass::cracks) c.normal = NormalKind::limit;
-    if (pass == Pass::cracks) c.show = kShowCracks;
-    if (pass == Pass::color) {
-        c.show = showConstant(frame.options.show);
-        c.hasAlbedoMap = frame.model.hasAlbedoMap() && frame.model.hasTexCoords() && frame.options.show == Show::shaded;
-        c.wantsTexCoords = c.hasAlbedoMap;
-    }
-    if (pass == Pass::lines) c.show = kShowLines;
-    if (pass == Pass::layers || pass == Pass::layerValues) {
-        c.show = kShowLayers;
-        c.wantsTexCoords = pass == Pass::layers;
-        c.hasMotion = pass == Pass::layerValues && frame.model.hasMotion();
-    }
-    if (pass == Pass::light) return {.show = showConstant(frame.options.show)};
-    return c;
-}
+Renderer::Parts::Parts(Device& device, const RendererDesc& desc)
+    : device(device), desc(desc), targets(makeTargets(device, desc)), resources(device),
+      repeating(makeSampler(device, {})), clamped(makeSampler(device, clampedSampler(VK_FILTER_LINEAR))),
+      around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
+      nearest(makeSampler(device, clampedSampler(VK_FILTER_NEAREST))), timer(device, 8), counter(device), rater(device),
+      dicer(device) {}
 
-std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, Pass pass) const {
-    const bool isTriangles = frame.model.isTriangles();
-    std::vector<Stage> stages;
-    if (frame.model.isDense() || frame.options.path == Path::dice) {
-        stages = {{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("mesh.vert")}};
-    } else if (frame.options.path == Path::grid) {
-        stages = {{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("grid.vert", isTriangles)}};
-    } else {
-        stages = {{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("patch.vert", isTriangles)},
-                  {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaderCode("patch.tesc", isTriangles)},
-                  {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaderCode("patch.tese", isTriangles)}};
-    }
-    const char* fragment = pass == Pass::cracks ? "crack.frag" : pass == Pass::layers ? "layers.frag" : "surface.frag";
-    if (pass != Pass::shadow) stages.push_back({VK_SHADER_STAGE_FRAGMENT_BIT, shaderCode(fragment)});
-    return stages;
-}
+// --- prepare --------------------------------------------------------------------------------------------------------
 
-const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
-    const std::vector<std::uint32_t> constants = constantsOf(frame, pass).values();
-    std::vector<std::uint32_t> key = constants;
-    key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.options.path), frame.model.isDense(),
-                           frame.model.isTriangles()});
-    const auto found = pipelines.find(key);
-    if (found != pipelines.end()) return found->second;
-
-    if (pass == Pass::light || pass == Pass::layerValues) {
-        const Stage stage{VK_SHADER_STAGE_COMPUTE_BIT, pass == Pass::light
-                                                           ? shaderCode("light.comp")
-                                                           : shaderCode("layers.comp", frame.model.isTriangles())};
-        return pipelines[key] = makeCompute(
-                   device, {.name = "light", .stage = stage, .constants = constants, .layout = passLayout()});
-    }
-    const bool isPatches = !frame.model.isDense() && frame.options.path == Path::tessellation;
-    GraphicsDesc graphics;
-    graphics.name = pass == Pass::shadow ? "shadow" : pass == Pass::lines ? "lines" : "color";
-    graphics.stages = stagesOf(frame, pass);
-    graphics.constants = constants;
-    graphics.layout = passLayout();
-    graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    graphics.depthFormat = pass == Pass::shadow ? kShadowFormat : kDepthFormat;
-    if (pass != Pass::shadow) {
-        graphics.colorFormats = {kNormalFormat, kColorFormat};
-        graphics.samples = VK_SAMPLE_COUNT_4_BIT;
-    }
-    if (pass == Pass::cracks) {
-        graphics.additiveBlend = true;
-        graphics.colorFormats = {kCrackFormat};
-        graphics.depthFormat = VK_FORMAT_UNDEFINED;
-        graphics.samples = VK_SAMPLE_COUNT_1_BIT;
-    }
-    if (pass == Pass::layers) {
-        graphics.colorFormats = {kLayerFormat, kLayerFormat};
-        graphics.samples = VK_SAMPLE_COUNT_1_BIT;
-    }
-    if (pass == Pass::lines) {
-        graphics.polygonMode = VK_POLYGON_MODE_LINE;
-        graphics.depthBias = true;
-    }
-    return pipelines[key] = makeGraphics(device, graphics);
-}
-
-void Renderer::Parts::useEnvironment(const Lighting& lighting, Scene& sceneData) {
+void Renderer::Parts::useEnvironment(const Lighting& lighting, Frame& frame) {
     const Environment* wanted = lighting.environment;
     if (wanted == nullptr) {
         if (studio.levels.empty()) studio = studioEnvironment();
@@ -132,131 +60,206 @@ void Renderer::Parts::useEnvironment(const Lighting& lighting, Scene& sceneData)
                                     std::as_bytes(std::span(texels)), 16);
         uploadedEnvironment = wanted;
     }
-    std::copy_n(wanted->irradiance, 9, sceneData.irradiance);
-    sceneData.environmentLevel = std::round(sceneData.roughness * float(wanted->levels.size() - 1));
+    std::copy_n(wanted->irradiance, 9, frame.inputs.light.irradiance);
+    for (pass::Material& material : frame.materials)
+        material.environmentLevel = std::round(material.roughness * float(wanted->levels.size() - 1));
 }
 
+/// Camera and light in the world, and the samples of the picture: what the passes over pixels read.
 void Renderer::Parts::describeView(Frame& frame) {
     const RenderOptions& o = frame.options;
-    Scene& s = frame.scene;
-    frame.model.describe(s, frame.bindings);
-    s.worldToClip = perspectiveMatrix(o.camera, double(desc.width) / desc.height);
-    s.worldToClipBefore =
-        o.cameraBefore ? perspectiveMatrix(*o.cameraBefore, double(desc.width) / desc.height) : s.worldToClip;
-    s.clipToWorld = mat4(glm::inverse(glm::dmat4(s.worldToClip)));
-    s.pictureTarget = targets.picture.address;
-    s.pictureSize = {desc.width, desc.height};
-    s.eye = vec3(o.camera.eye);
-    s.exposure = 1;
-    const dvec3 key = directionAt(o.lighting.keyAzimuth, o.lighting.keyElevation);
-    s.keyDirection = vec3(key);
-    s.keyRadiance = vec3(float(o.lighting.keyStrength)) * vec3(1.0f, 0.97f, 0.92f);
-    s.albedo = o.material.albedo;
-    s.roughness = std::clamp(o.material.roughness, 0.05f, 1.0f);
-    useEnvironment(o.lighting, s);
-    s.hasShadows = castsShadows(frame) ? 1 : 0;
-    s.worldToShadow = shadowMatrix(key, o.bounds);
-    s.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
-    s.shadowSoftness = 3.0f / float(desc.shadowSide);
+    pass::View& view = frame.inputs.view;
+    const double aspect = double(desc.width) / desc.height;
+    view.toClip = perspectiveMatrix(o.camera, aspect);
+    view.toClipBefore = o.cameraBefore ? perspectiveMatrix(*o.cameraBefore, aspect) : view.toClip;
+    view.fromClip = mat4(glm::inverse(glm::dmat4(view.toClip)));
+    view.normalToWorld = mat3(1);
+    view.eye = vec3(o.camera.eye);
+    view.pictureSize = {desc.width, desc.height};
 
-    const VkSampler wrap = frame.model.wrap() == Wrap::repeat ? repeating.get() : clamped.get();
-    frame.bindings[kBindScene].uniform = scene.handle.get();
-    frame.bindings[kBindAlbedo].sampler = wrap;
-    frame.bindings[kBindEnvironment].view = environment.view.get();
-    frame.bindings[kBindEnvironment].sampler = around.get();
-    frame.bindings[kBindShadow].view = targets.shadow.view.get();
-    frame.bindings[kBindDepths].view = targets.depths.view.get();
-    frame.bindings[kBindNormals].view = targets.normals.view.get();
-    frame.bindings[kBindColors].view = targets.colors.view.get();
-    for (const std::uint32_t image : {kBindShadow, kBindDepths, kBindNormals, kBindColors})
-        frame.bindings[image].sampler = nearest.get();
-    for (const std::uint32_t texels : {kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
-        frame.bindings[texels].texels = noWords.view.get();
-    for (const std::uint32_t floats : {kBindEdgeRates, kBindLevels, kBindEdgeHeights})
-        frame.bindings[floats].texels = frame.bindings[kBindPoints].texels;
+    pass::Light& light = frame.inputs.light;
+    const dvec3 key = directionAt(o.lighting.keyAzimuth, o.lighting.keyElevation);
+    light.keyDirection = vec3(key);
+    light.keyRadiance = vec3(float(o.lighting.keyStrength)) * vec3(1.0f, 0.97f, 0.92f);
+    light.hasShadows = frame.castsShadows() ? 1 : 0;
+    light.toShadow = shadowMatrix(key, o.bounds);
+    light.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
+    light.shadowSoftness = 3.0f / float(desc.shadowSide);
+    useEnvironment(o.lighting, frame);
+    frame.inputs.material = frame.materials.front();
+    frame.inputs.targets.picture = targets.picture.address;
+    frame.inputs.targets.materials = frame.materialTable.address;
+
+    frame.bindings = resources.bindings();
+    frame.bindings[kBindEnvironment] = {.view = environment.view.get(), .sampler = around.get()};
+    frame.bindings[kBindShadow] = {.view = targets.shadow.view.get(), .sampler = nearest.get()};
+    frame.bindings[kBindDepths] = {.view = targets.depths.view.get(), .sampler = nearest.get()};
+    frame.bindings[kBindNormals] = {.view = targets.normals.view.get(), .sampler = nearest.get()};
+    frame.bindings[kBindColors] = {.view = targets.colors.view.get(), .sampler = nearest.get()};
+    if (frame.hasInstances())
+        frame.bindings[kBindInstances] = {.view = targets.instances->view.get(), .sampler = nearest.get()};
 }
 
-BindingSet Renderer::Parts::bindingSet(const Frame& frame, Pass pass) {
-    return makeBindingSet(device, pipelineOf(frame, pass), passLayout(), frame.bindings);
+/// An instance with its tables, and the view in the model's own space.
+Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Instance& instance, std::size_t number) {
+    Drawn drawn{.surface = instance.surface, .mesh = instance.mesh};
+
+    drawn.inputs = frame.inputs;
+    drawn.bindings = frame.bindings;
+    if (drawn.surface != nullptr)
+        relief::describe(*drawn.surface, drawn.inputs, drawn.bindings);
+    else
+        relief::describe(*drawn.mesh, drawn.inputs, drawn.bindings);
+    const std::optional<AlbedoMap>& albedo = drawn.surface != nullptr ? drawn.surface->albedo : drawn.mesh->albedo;
+    if (albedo) drawn.bindings[kBindAlbedo].sampler = albedo->wrap == Wrap::repeat ? repeating.get() : clamped.get();
+    drawn.bindings[kBindInputs].uniform = inputBuffers[number].handle.get();
+    drawn.inputs.material = frame.materials[number];
+
+    const glm::dmat4 toWorld(instance.toWorld), fromWorld = glm::inverse(toWorld);
+    const double scale = scaleOf(instance.toWorld);
+    RELIEF_CHECK(scale > 0);
+    pass::View& view = drawn.inputs.view;
+    const auto fromModel = [&](mat4& matrix) { matrix = mat4(glm::dmat4(matrix) * toWorld); };
+    fromModel(view.toClip), fromModel(view.toClipBefore), fromModel(drawn.inputs.light.toShadow);
+    view.fromClip = mat4(fromWorld * glm::inverse(glm::dmat4(frame.inputs.view.toClip)));
+    view.normalToWorld = mat3(glm::dmat3(toWorld) / scale);
+    view.eye = vec3(dvec3(fromWorld * glm::dvec4(frame.options.camera.eye, 1)));
+    view.instance = std::uint32_t(number);
+    drawn.view = viewOf(frame.options.camera, desc.height);
+    drawn.view.eye = view.eye;
+    drawn.view.nearDistance = float(drawn.view.nearDistance / scale);
+    return drawn;
+}
+
+Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instances, const RenderOptions& options) {
+    Frame frame{.options = options, .technique = techniqueOf(options.show), .path = options.path};
+    if (frame.technique.hasLines && !device.traits().hasWireframe)
+        fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it", device.traits().name);
+    if (instances.empty() || instances.size() > kMostInstances)
+        fail(Failure::usage, "a picture of {} instances is not in 1..{}", instances.size(), kMostInstances);
+
+    // What all instances share; their numbers on samples where there are several.
+    for (const Instance& instance : instances)
+        frame.materials.push_back(
+            {.albedo = instance.material.albedo, .roughness = std::clamp(instance.material.roughness, 0.05f, 1.0f)});
+    while (inputBuffers.size() < instances.size() + 1) inputBuffers.push_back(makeInputBuffer(device));
+    frame.drawn.reserve(instances.size());
+    frame.drawn.resize(instances.size());
+    if (frame.hasInstances() && !targets.instances)
+        targets.instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_4_BIT);
+    describeView(frame);
+    if (frame.hasInstances()) {
+        frame.materialTable = uploadArray<pass::Material>(device, "materials", frame.materials);
+        frame.inputs.targets.materials = frame.materialTable.address;
+    }
+    frame.bindings[kBindInputs].uniform = inputBuffers[instances.size()].handle.get();
+
+    // The triangles of each.
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        Drawn& drawn = frame.drawn[i] = describe(frame, instances[i], i);
+        if (drawn.surface != nullptr) {
+            makeTriangles(frame, drawn, frame.stats);
+        } else {
+            frame.stats.triangleCount += drawn.mesh->triangleCount;
+            frame.stats.vertexCount += drawn.mesh->vertexCount;
+            ++frame.stats.drawCount;
+        }
+    }
+    return frame;
+}
+
+/// Descriptor sets for all passes of a picture. Every pipeline has the same layout (passLayout), so that a set made for
+/// one serves all.
+void Renderer::Parts::makeSets(Frame& frame, DrawPass pass) {
+    const PipelineLayoutDesc layout = passLayout(device);
+    for (Drawn& drawn : frame.drawn)
+        drawn.set = makeBindingSet(device, pipelineOf(frame, drawn, pass), layout, drawn.bindings);
+    if (pass == DrawPass::surface) frame.set = makeBindingSet(device, lightPipeline(frame), layout, frame.bindings);
+}
+
+void Renderer::Parts::writeInputs(VkCommandBuffer commands, const Frame& frame) {
+    for (std::size_t i = 0; i < frame.drawn.size(); ++i)
+        relief::writeInputs(commands, inputBuffers[i], frame.drawn[i].inputs);
+    relief::writeInputs(commands, inputBuffers[frame.drawn.size()], frame.inputs);
+}
+
+// --- record ---------------------------------------------------------------------------------------------------------
+
+Rendering Renderer::Parts::begin(VkCommandBuffer commands, const Frame& frame, Rendering::Targets all) const {
+    return {commands, frame.options.meshTrianglesInFlight.value_or(device.traits().meshTrianglesInFlight),
+            std::move(all)};
 }
 
 void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
-    Rendering rendering(commands, trianglesInFlight(frame), {{}, attachment(targets.shadow), uvec2(desc.shadowSide)});
-    draw(rendering, frame, Pass::shadow);
+    Rendering rendering = begin(commands, frame, {{}, attachment(targets.shadow), uvec2(desc.shadowSide)});
+    draw(rendering, frame, DrawPass::shadow);
     rendering.end();
 }
 
-void Renderer::Parts::colorPass(VkCommandBuffer commands, const Frame& frame) {
-    Rendering rendering(
-        commands, trianglesInFlight(frame),
-        {{attachment(targets.normals), attachment(targets.colors)}, attachment(targets.depths), size()});
-    draw(rendering, frame, Pass::color);
-    if (frame.options.show == Show::wireframe) draw(rendering, frame, Pass::lines);
+void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) {
+    Rendering::Targets all{
+        {attachment(targets.normals), attachment(targets.colors)}, attachment(targets.depths), size()};
+    if (frame.hasInstances()) all.colors.push_back(attachment(*targets.instances));
+    Rendering rendering = begin(commands, frame, std::move(all));
+    draw(rendering, frame, DrawPass::surface);
+    if (frame.technique.hasLines) draw(rendering, frame, DrawPass::lines);
     rendering.end();
 }
 
 void Renderer::Parts::lightPass(VkCommandBuffer commands, const Frame& frame) {
-    const Pipeline& pipeline = pipelineOf(frame, Pass::light);
-    bind(commands, pipeline, frame.set);
-    pushConstants(commands, pipeline, {});
+    bind(commands, lightPipeline(frame), frame.set);
     vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
     barrier(commands);
 }
 
-Picture Renderer::render(const Model& model, const RenderOptions& options) {
-    Parts& parts = *parts_;
-    if (options.show == Show::wireframe && !parts.device.traits().hasWireframe)
-        fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it",
-             parts.device.traits().name);
-    const double start = secondsNow();
-    Picture picture;
-    picture.isDisplayReferred = options.show != Show::shaded;
-    FrameStats& stats = picture.stats;
+void Renderer::Parts::record(VkCommandBuffer commands, Frame& frame) {
+    timer.reset(commands);
+    writeInputs(commands, frame);
+    timer.stamp(commands);
+    if (frame.castsShadows()) shadowPass(commands, frame);
+    timer.stamp(commands);
+    if (frame.options.countsPipeline) counter.begin(commands);
+    surfacePass(commands, frame);
+    if (frame.options.countsPipeline) counter.end(commands);
+    timer.stamp(commands);
+    lightPass(commands, frame);
+    timer.stamp(commands);
+}
 
-    Parts::Frame frame{.model = model, .options = options};
-    parts.describeView(frame);
-    if (model.isDense()) {
-        stats.triangleCount = model.indexCount() / 3;
-        stats.vertexCount = model.vertexCount();
-        stats.drawCount = 1;
-    } else {
-        parts.makeTriangles(frame, stats);
-    }
-    const bool castsShadows = parts.castsShadows(frame);
-    frame.set = parts.bindingSet(frame, Parts::Pass::color);
-    parts.device.run([&](VkCommandBuffer commands) {
-        parts.timer.reset(commands);
-        writeScene(commands, parts.scene, frame.scene);
-        parts.timer.stamp(commands);
-        if (castsShadows) parts.shadowPass(commands, frame);
-        parts.timer.stamp(commands);
-        if (options.countsPipeline) parts.counter.begin(commands);
-        parts.colorPass(commands, frame);
-        if (options.countsPipeline) parts.counter.end(commands);
-        parts.timer.stamp(commands);
-        parts.lightPass(commands, frame);
-        parts.timer.stamp(commands);
-    });
-    const std::vector<double> times = parts.timer.intervals();
-    if (times.size() == 3) stats.shadowMs = times[0], stats.colorMs = times[1], stats.lightMs = times[2];
-    if (options.countsPipeline) stats.pipeline = parts.counter.counts();
-    const auto* halves = static_cast<const std::uint16_t*>(parts.targets.picture.mapped);
-    picture.width = parts.desc.width;
-    picture.height = parts.desc.height;
+// --- read -----------------------------------------------------------------------------------------------------------
+
+Picture Renderer::Parts::read(Frame& frame) {
+    const std::vector<double> times = timer.intervals();
+    if (times.size() == 3)
+        frame.stats.shadowMs = times[0], frame.stats.colorMs = times[1], frame.stats.lightMs = times[2];
+    if (frame.options.countsPipeline) frame.stats.pipeline = counter.counts();
+    const auto* halves = static_cast<const std::uint16_t*>(targets.picture.mapped);
+    Picture picture;
+    picture.width = desc.width;
+    picture.height = desc.height;
+    picture.isDisplayReferred = !frame.technique.isLit;
     picture.halves.assign(halves, halves + std::size_t(picture.width) * std::size_t(picture.height) * 4);
-    if (!options.layers.empty()) parts.renderLayers(model, options, picture);
-    stats.wallMs = 1e3 * (secondsNow() - start);
+    if (!frame.options.layers.empty()) renderLayers(frame, picture);
+    picture.stats = frame.stats;
     return picture;
 }
 
-std::uint64_t Renderer::crackPixels(const Model& model, const RenderOptions& options, const vec3& shift) {
+Picture Renderer::render(std::span<const Instance> instances, const RenderOptions& options) {
     Parts& parts = *parts_;
-    Parts::Frame frame{.model = model, .options = options};
-    parts.describeView(frame);
-    frame.scene.crackShift = shift;
-    FrameStats stats;
-    if (!model.isDense()) parts.makeTriangles(frame, stats);
-    frame.set = parts.bindingSet(frame, Parts::Pass::cracks);
+    const double start = secondsNow();
+    Parts::Frame frame = parts.prepare(instances, options);
+    parts.makeSets(frame, DrawPass::surface);
+    parts.device.run([&](VkCommandBuffer commands) { parts.record(commands, frame); });
+    Picture picture = parts.read(frame);
+    picture.stats.wallMs = 1e3 * (secondsNow() - start);
+    return picture;
+}
+
+std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift) {
+    Parts& parts = *parts_;
+    Parts::Frame frame = parts.prepare(std::span(&instance, 1), options);
+    frame.drawn.front().inputs.view.crackShift = shift;
+    parts.makeSets(frame, DrawPass::cracks);
     const auto width = std::uint32_t(parts.desc.width), height = std::uint32_t(parts.desc.height);
     const Texture sums =
         makeTexture(parts.device, {.name = "cracks",
@@ -269,9 +272,9 @@ std::uint64_t Renderer::crackPixels(const Model& model, const RenderOptions& opt
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                   .memory = MemoryUse::readback});
     parts.device.run([&](VkCommandBuffer commands) {
-        writeScene(commands, parts.scene, frame.scene);
-        Rendering rendering(commands, parts.trianglesInFlight(frame), {{attachment(sums)}, {}, parts.size()});
-        parts.draw(rendering, frame, Parts::Pass::cracks);
+        parts.writeInputs(commands, frame);
+        Rendering rendering = parts.begin(commands, frame, {{attachment(sums)}, {}, parts.size()});
+        parts.draw(rendering, frame, DrawPass::cracks);
         rendering.end();
         VkBufferImageCopy region{};
         region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};

@@ -1,76 +1,25 @@
-// Internal: what a renderer is made of.
+// Internal: what a renderer is made of, and what it makes of the instances of one picture.
 #pragma once
 
 #include "frame/passes.h"
+#include "frame/rendering.h"
 
 namespace relief {
 
-inline VkRenderingAttachmentInfo attachment(const Texture& target) {
-    VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = target.view.get();
-    info.imageLayout = VK_IMAGE_LAYOUT_GENERAL;
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    info.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    return info; // cleared to zero: nothing, farthest depth
-}
-
-inline void setViewport(VkCommandBuffer commands, std::uint32_t width, std::uint32_t height) {
-    const VkViewport viewport{0, 0, float(width), float(height), 0, 1};
-    const VkRect2D scissor{{0, 0}, {width, height}};
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &scissor);
-}
-
-/// Cleared targets of one size, drawn over as a whole.
-class Rendering {
-public:
-    struct Targets {
-        std::vector<VkRenderingAttachmentInfo> colors;
-        std::optional<VkRenderingAttachmentInfo> depth;
-        uvec2 size;
-    };
-    Rendering(VkCommandBuffer commands, std::uint32_t trianglesInFlight, Targets targets);
-    Rendering(const Rendering&) = delete;
-    Rendering& operator=(const Rendering&) = delete;
-
-    [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
-    /// Triangles of the bound indices; where they are more than the device should keep it finishes some in between.
-    void drawMesh(std::uint32_t first, std::uint32_t count);
-    void end();
-
-private:
-    void begin() const;
-    void goOn(); ///< when all that was drawn is done
-
-    VkCommandBuffer commands_;
-    Targets targets_;
-    std::uint32_t most_, room_; ///< triangles until the next wait
-};
-
 struct Renderer::Parts {
-    Parts(Device& device, const RendererDesc& desc)
-        : device(device), desc(desc), targets(makeTargets(device, desc)), scene(makeSceneBuffer(device)),
-          repeating(makeSampler(device, {})),
-          clamped(makeSampler(device, {.wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                       .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-          around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-          nearest(makeSampler(device, {.filter = VK_FILTER_NEAREST,
-                                       .wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
-                                       .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-          noWords(uploadWords(device, "nothing", {})), timer(device, 8), counter(device), rater(device), dicer(device) {
-    }
+    Parts(Device& device, const RendererDesc& desc);
 
     Device& device;
     RendererDesc desc;
     Targets targets;
-    Buffer scene;
+    PassResources resources;
+    std::vector<Buffer> inputBuffers; ///< one per instance, and one for the passes over pixels
     Owned<VkSampler> repeating, clamped, around, nearest;
-    TexelBuffer noWords;
     Timer timer;
     PipelineCounter counter;
     EdgeRater rater;
     Dicer dicer;
-    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
+    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything in which two of them may differ
     std::map<std::uint32_t, Buffer> grids;                    ///< index buffers of quads by their columns,
     std::map<std::uint32_t, Buffer> triangleGrids;            ///< of triangles by their rate
     Environment studio;                                       ///< made when first needed
@@ -80,51 +29,80 @@ struct Renderer::Parts {
 
     [[nodiscard]] uvec2 size() const { return {desc.width, desc.height}; }
 
-    /// Everything that one call of render() needs.
-    struct Frame {
-        const Model& model;
-        const RenderOptions& options;
-        Scene scene{};
-        Binding bindings[kBindCount] = {};
+    /// One instance with everything that draws it.
+    struct Drawn {
+        const SurfaceModel* surface = nullptr; ///< one of them
+        const MeshModel* mesh = nullptr;
+        PassInputs inputs{}; ///< in the model's own space
+        PassBindings bindings{};
+        View view; ///< in the model's own space
         EdgeRates rates;
-        RateTexels rateTexels;
+        RateTables rateTables;
         TexelBuffer drawFaces;
         Buffer draws;
         DrawPlan plan;
         DicedMesh diced;
         BindingSet set;
+
+        [[nodiscard]] bool isTriangles() const { return surface != nullptr && surface->isTriangles(); }
     };
 
-    enum class Pass { shadow, color, lines, light, cracks, layers, layerValues };
+    /// A picture in the making.
+    struct Frame {
+        const RenderOptions& options;
+        const Technique& technique;
+        Path path;           ///< of its surfaces
+        PassInputs inputs{}; ///< of the passes over pixels, in the world
+        PassBindings bindings{};
+        std::vector<Drawn> drawn;
+        std::vector<pass::Material> materials;
+        Buffer materialTable; ///< where there are several instances
+        BindingSet set;
+        FrameStats stats;
 
-    ShaderConstants constantsOf(const Frame& frame, Pass pass) const;
-    const Pipeline& pipelineOf(const Frame& frame, Pass pass);
-    std::vector<Stage> stagesOf(const Frame& frame, Pass pass) const;
-    void useEnvironment(const Lighting& lighting, Scene& scene);
+        [[nodiscard]] bool hasInstances() const { return drawn.size() > 1; }
+        [[nodiscard]] bool castsShadows() const { return options.lighting.castsShadows && technique.isLit; }
+    };
+
+    // What a frame is made of, in this order.
+    Frame prepare(std::span<const Instance> instances, const RenderOptions& options);
+    void record(VkCommandBuffer commands, Frame& frame);
+    Picture read(Frame& frame);
+
+    // prepare()
     void describeView(Frame& frame);
-    BindingSet bindingSet(const Frame& frame, Pass pass);
-    void makeTriangles(Frame& frame, FrameStats& stats);
-    void makePlan(Frame& frame, FrameStats& stats);
-    void makeDiced(Frame& frame, FrameStats& stats);
-    void makeGrids(const Model& model, const DrawPlan& plan);
-    const Buffer& gridOf(const Model& model, const DrawBatch& batch) const;
-    void drawPatches(VkCommandBuffer commands, const Frame& frame, Pass pass);
-    void drawGrids(VkCommandBuffer commands, const Frame& frame, const Pipeline& pipeline, Pass pass);
-    static std::span<const DrawBatch> batchesOf(const Frame& frame, Pass pass);
-    static void drawDiced(Rendering& rendering, const Frame& frame, const Pipeline& pipeline, PushConstants constants);
-    void draw(Rendering& rendering, const Frame& frame, Pass pass);
+    void useEnvironment(const Lighting& lighting, Frame& frame);
+    Drawn describe(const Frame& frame, const Instance& instance, std::size_t number);
+    void makeTriangles(const Frame& frame, Drawn& drawn, FrameStats& stats);
+    void makePlan(const Frame& frame, Drawn& drawn, FrameStats& stats);
+    void makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats);
+    void makeGrids(const SurfaceModel& model, const DrawPlan& plan);
+    void makeSets(Frame& frame, DrawPass pass);
+    void writeInputs(VkCommandBuffer commands, const Frame& frame);
+
+    // Pipelines.
+    ShaderConstants constantsOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
+    const Pipeline& pipelineOf(const Frame& frame, const Drawn& drawn, DrawPass pass);
+    std::vector<Stage> stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
+    const Pipeline& computePipeline(const char* file, bool isTriangles, const ShaderConstants& constants);
+    const Pipeline& lightPipeline(const Frame& frame);
+
+    // Draws.
+    [[nodiscard]] const Buffer& gridOf(const SurfaceModel& model, const DrawBatch& batch) const;
+    void draw(Rendering& rendering, const Frame& frame, DrawPass pass);
+    void drawPatches(VkCommandBuffer commands, const Drawn& drawn, DrawPass pass);
+    void drawGrids(VkCommandBuffer commands, const Drawn& drawn, const Pipeline& pipeline, DrawPass pass);
+    static void drawDiced(Rendering& rendering, const Frame& frame, const Drawn& drawn, const Pipeline& pipeline);
+    Rendering begin(VkCommandBuffer commands, const Frame& frame, Rendering::Targets all) const;
+
+    // Passes.
     void shadowPass(VkCommandBuffer commands, const Frame& frame);
-    void colorPass(VkCommandBuffer commands, const Frame& frame);
+    void surfacePass(VkCommandBuffer commands, const Frame& frame);
     void lightPass(VkCommandBuffer commands, const Frame& frame);
-    void renderLayers(const Model& model, const RenderOptions& options, Picture& picture);
+    void renderLayers(Frame& frame, Picture& picture);
     void layerPass(VkCommandBuffer commands, const Frame& frame);
     void layerValuesPass(VkCommandBuffer commands, const Frame& frame);
-    [[nodiscard]] std::uint32_t trianglesInFlight(const Frame& frame) const {
-        return frame.options.meshTrianglesInFlight.value_or(device.traits().meshTrianglesInFlight);
-    }
-    [[nodiscard]] bool castsShadows(const Frame& frame) const {
-        return frame.options.lighting.castsShadows && frame.options.show == Show::shaded;
-    }
+    const Pipeline& layerPipeline(const Frame& frame, const Drawn& drawn);
 };
 
 } // namespace relief

@@ -27,6 +27,15 @@ Targets makeTargets(Device& device, const RendererDesc& desc) {
     return t;
 }
 
+Texture makeInstanceTarget(Device& device, const RendererDesc& desc, VkSampleCountFlagBits samples) {
+    return makeTexture(device, {.name = "instances",
+                                .width = std::uint32_t(desc.width),
+                                .height = std::uint32_t(desc.height),
+                                .format = kInstanceFormat,
+                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                .samples = samples});
+}
+
 LayerTargets makeLayerTargets(Device& device, const RendererDesc& desc) {
     const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
     const auto target = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
@@ -38,7 +47,7 @@ LayerTargets makeLayerTargets(Device& device, const RendererDesc& desc) {
     };
     LayerTargets t;
     t.normals = target("layer normals", kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
-    t.places = target("layer places", kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+    t.surfacePoints = target("layer surface points", kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.depths = target("layer depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     t.values = makeBuffer(device, {.name = "layers",
                                    .bytes = std::uint64_t(width) * height * kLayerChannels * sizeof(float),

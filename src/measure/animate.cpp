@@ -71,24 +71,24 @@ void timeFrames(Bench& bench, const Subject& subject, OnDevice& on, int rate) {
     const DenseMesh mesh = denseMeshOf(bench.device, on.model, rate);
     const Rig cageRig = columnRig(subject.cage.positions, on.bounds), meshRig = columnRig(mesh.positions, on.bounds);
     Poser poser(bench.device, on.model, {.surface = &on.surface, .rig = &cageRig});
-    const std::unique_ptr<Model> skinned = denseModel(bench.device, mesh), sent = denseModel(bench.device, mesh);
+    const std::unique_ptr<MeshModel> skinned = denseModel(bench.device, mesh), sent = denseModel(bench.device, mesh);
     MeshPoser skinner(bench.device, *skinned, mesh, meshRig), sender(bench.device, *sent, mesh, meshRig);
     DenseMesh posed = mesh;
 
     const auto poseCage = [&](int round) { poser.pose(columnPose(on.bounds, round)); };
     std::vector<Drawn> all;
     const auto addCage = [&](const char* name, Path path) {
-        all.push_back({.name = name, .model = &on.model, .options = on.renderOptions(rate), .pose = poseCage});
+        all.push_back({.name = name, .instance = on.model, .options = on.renderOptions(rate), .pose = poseCage});
         all.back().options.path = path;
     };
     if (bench.device.traits().hasTessellation) addCage("posed cage, tessellation", Path::tessellation);
     addCage("posed cage, dicing", Path::dice);
     all.push_back({.name = "dense mesh, skinned on the device",
-                   .model = skinned.get(),
+                   .instance = *skinned,
                    .options = on.renderOptions(rate),
                    .pose = [&](int round) { skinner.pose(columnPose(on.bounds, round)); }});
     all.push_back({.name = "dense mesh, posed by the processor",
-                   .model = sent.get(),
+                   .instance = *sent,
                    .options = on.renderOptions(rate),
                    .pose = [&](int round) {
                        poseOnHost(mesh, meshRig, columnPose(on.bounds, round), posed);

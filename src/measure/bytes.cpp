@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "measure/measure.h"
-#include "shared/scene.h"
+#include "shared/inputs.h"
 
 namespace relief {
 namespace {

@@ -54,13 +54,13 @@ const HeightMap& Contest::map(int side, MapFormat format) {
     return maps_.emplace(std::pair(side, format), std::move(map)).first->second;
 }
 
-std::unique_ptr<Model> Contest::model(const Saving& saving) {
-    return std::make_unique<Model>(device_, ModelDesc{.surface = &surface(saving.isolation),
-                                                      .cagePositions = subject_.cage.positions,
-                                                      .height = &map(saving.side, saving.format)});
+std::unique_ptr<SurfaceModel> Contest::model(const Saving& saving) {
+    return std::make_unique<SurfaceModel>(device_, SurfaceModelDesc{.surface = &surface(saving.isolation),
+                                                                    .cagePositions = subject_.cage.positions,
+                                                                    .height = &map(saving.side, saving.format)});
 }
 
-DenseMesh Contest::meshOf(const Model& model, int rate) {
+DenseMesh Contest::meshOf(const SurfaceModel& model, int rate) {
     return dicer_.diceToHost(model, exactRates(model, rate), {.wantsTexCoords = subject_.cage.hasTexCoords()});
 }
 
@@ -75,11 +75,11 @@ MeshError Contest::errorOf(const DenseMesh& mesh) const {
 const Judged& Contest::judged(const Saving& saving) {
     const auto found = judged_.find(saving);
     if (found != judged_.end()) return found->second;
-    const std::unique_ptr<Model> on = model(saving);
+    const std::unique_ptr<SurfaceModel> on = model(saving);
     const DenseMesh made = meshOf(*on, saving.rate);
     const MeshCounts counts{made.positions.size(), made.indices.size() / 3};
-    const Evaluation evaluation{on->hasTexCoords(), on->hasWideIndices(), saving.format};
-    return judged_.emplace(saving, Judged{errorOf(made), counts, on->byteCount(), evaluation}).first->second;
+    const Evaluation evaluation{on->hasTexCoords, on->hasWideIndices, saving.format};
+    return judged_.emplace(saving, Judged{errorOf(made), counts, on->byteCount, evaluation}).first->second;
 }
 
 const MeshError& Contest::errorOf(const Saving& saving) { return judged(saving).error; }
@@ -87,7 +87,8 @@ const MeshError& Contest::errorOf(const Saving& saving) { return judged(saving).
 std::uint64_t Contest::surfaceBytes(int isolation) {
     std::uint64_t& bytes = surfaceBytes_[isolation];
     if (bytes == 0)
-        bytes = Model(device_, {.surface = &surface(isolation), .cagePositions = subject_.cage.positions}).byteCount();
+        bytes =
+            SurfaceModel(device_, {.surface = &surface(isolation), .cagePositions = subject_.cage.positions}).byteCount;
     return bytes;
 }
 

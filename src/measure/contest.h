@@ -45,7 +45,7 @@ public:
 
     const Surface& surface(int isolation);
     const HeightMap& map(int side, MapFormat format);
-    std::unique_ptr<Model> model(const Saving& saving);
+    std::unique_ptr<SurfaceModel> model(const Saving& saving);
     DenseMesh mesh(const Saving& saving);
 
     MeshError errorOf(const DenseMesh& mesh) const;
@@ -65,7 +65,7 @@ private:
     int referenceRate_ = 1, largestRate_ = 1;
     std::map<int, Surface> surfaces_;
     std::map<std::pair<int, MapFormat>, HeightMap> maps_;
-    DenseMesh meshOf(const Model& model, int rate);
+    DenseMesh meshOf(const SurfaceModel& model, int rate);
     std::map<Saving, Judged> judged_;
     std::map<int, std::uint64_t> surfaceBytes_;
     DenseMesh referenceMesh_;

@@ -55,14 +55,14 @@ RenderOptions OnDevice::renderOptions(int rate) const {
     return options;
 }
 
-EdgeRates exactRates(const Model& model, int rate) { return {.rates = model.uniformRates(float(rate))}; }
+EdgeRates exactRates(const SurfaceModel& model, int rate) { return {.rates = uniformRates(model, float(rate))}; }
 
-DenseMesh denseMeshOf(Device& device, const Model& model, int rate) {
-    return Dicer(device).diceToHost(model, exactRates(model, rate), {.wantsTexCoords = model.hasTexCoords()});
+DenseMesh denseMeshOf(Device& device, const SurfaceModel& model, int rate) {
+    return Dicer(device).diceToHost(model, exactRates(model, rate), {.wantsTexCoords = model.hasTexCoords});
 }
 
-std::unique_ptr<Model> denseModel(Device& device, const DenseMesh& mesh) {
-    return std::make_unique<Model>(device, ModelDesc{.dense = &mesh});
+std::unique_ptr<MeshModel> denseModel(Device& device, const DenseMesh& mesh) {
+    return std::make_unique<MeshModel>(device, MeshModelDesc{.mesh = &mesh});
 }
 
 void Drawn::tell(Row& row) const {
@@ -73,7 +73,7 @@ void Drawn::tell(Row& row) const {
         return both;
     }());
     row.add("rates pass", "ms", rates);
-    if (options.path == Path::dice && !model->isDense()) row.add("dice pass", "ms", dice);
+    if (options.path == Path::dice && instance.surface != nullptr) row.add("dice pass", "ms", dice);
     row.add("color pass", "ms", color);
     row.add("light pass", "ms", light);
     row.add("triangles", "triangles", Origin::measured, double(last.triangleCount));
@@ -89,16 +89,17 @@ void Drawn::tell(Row& row) const {
     }
     const MeshCounts mesh{last.vertexCount, last.triangleCount};
     Traffic traffic;
-    if (model->isDense()) {
+    if (instance.mesh != nullptr) {
         row.add("resident", "bytes", Origin::computed, double(residentBytes(kRawLayout, mesh)));
         traffic = denseTraffic(kRawLayout, mesh, hasCounts ? counts.vertexCalls : 3 * mesh.triangles);
     } else {
-        row.add("resident", "bytes", Origin::measured, double(model->byteCount()));
+        row.add("resident", "bytes", Origin::measured, double(instance.surface->byteCount));
         const bool isDiced = options.path == Path::dice;
         const std::uint64_t calls = options.path == Path::tessellation ? counts.tessellationCalls : counts.vertexCalls;
-        traffic = surfaceTraffic({.residentBytes = model->byteCount(),
+        traffic = surfaceTraffic({.residentBytes = instance.surface->byteCount,
                                   .calls = hasCounts && !isDiced ? calls : mesh.vertices,
-                                  .evaluation = {model->hasTexCoords(), model->hasWideIndices(), model->mapFormat()},
+                                  .evaluation = {instance.surface->hasTexCoords, instance.surface->hasWideIndices,
+                                                 instance.surface->mapFormat()},
                                   .diced = isDiced ? mesh : MeshCounts{}});
     }
     row.add("read a frame, least", "bytes", Origin::computed, double(traffic.least));
@@ -112,7 +113,7 @@ void drawRounds(Renderer& renderer, std::span<const Camera> views, int roundCoun
             options.camera = views[std::size_t(std::max(round, 0)) % views.size()];
             options.countsPipeline = round < 0; // the round that compiles shaders, not measured
             const double poseMs = millisecondsOf([&] { drawn.pose(round); });
-            const FrameStats stats = renderer.render(*drawn.model, options).stats;
+            const FrameStats stats = renderer.render(drawn.instance, options).stats;
             if (round < 0) drawn.last = stats;
             if (round < 0 && roundCount > 0) continue;
             drawn.wall.push_back(poseMs + stats.wallMs);

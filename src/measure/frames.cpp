@@ -14,7 +14,7 @@ std::vector<Drawn> pathsOf(const OnDevice& on, const DeviceTraits& traits, int r
     const auto add = [&](const char* name, Path path) {
         RenderOptions options = on.renderOptions(rate);
         options.path = path;
-        all.push_back({.name = name, .model = &on.model, .options = options});
+        all.push_back({.name = name, .instance = on.model, .options = options});
     };
     if (traits.hasTessellation && std::uint32_t(rate) <= traits.maxTessellationLevel)
         add("tessellation", Path::tessellation);
@@ -68,8 +68,9 @@ void measurePreparation(Bench& bench, const Subject& subject) {
             malloc_trim(0); // a program prepares once, in fresh memory: rounds of small cages must not find it warm
             Surface surface;
             tables.push_back(millisecondsOf([&] { surface = buildSurface(cage, subject.surface); }));
-            upload.push_back(millisecondsOf(
-                [&] { const Model model(bench.device, {.surface = &surface, .cagePositions = cage.positions}); }));
+            upload.push_back(millisecondsOf([&] {
+                const SurfaceModel model(bench.device, {.surface = &surface, .cagePositions = cage.positions});
+            }));
         }
         Row row{"scaling", subject.name, "preparation", "faces", double(cage.faceCount()), {}};
         row.add("tables", "ms", tables);
@@ -86,8 +87,8 @@ void measureFrame(Bench& bench, const Subject& subject) {
     const OnDevice on(bench.device, subject);
     const int rate = on.rateFor(bench.options.isQuick ? 6e4 : 1e6);
     std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
-    const std::unique_ptr<Model> dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
-    all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
+    const std::unique_ptr<MeshModel> dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
+    all.push_back({.name = kDense, .instance = *dense, .options = on.renderOptions(rate)});
     Renderer renderer(bench.device, {.width = bench.pictureSide(), .height = bench.pictureSide(), .shadowSide = 1});
     drawRounds(renderer, on.views, bench.roundCount(), all);
     addRows(bench, {.suite = "frame", .scene = subject.name}, all);
@@ -152,8 +153,8 @@ void measureScaling(Bench& bench, const Subject& subject) {
         if (rate == previous || triangles > (bench.options.isQuick ? 3e4 : 1e7)) continue;
         previous = rate;
         std::vector<Drawn> all = pathsOf(on, bench.device.traits(), rate);
-        const std::unique_ptr<Model> dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
-        all.push_back({.name = kDense, .model = dense.get(), .options = on.renderOptions(rate)});
+        const std::unique_ptr<MeshModel> dense = denseModel(bench.device, denseMeshOf(bench.device, on.model, rate));
+        all.push_back({.name = kDense, .instance = *dense, .options = on.renderOptions(rate)});
         drawRounds(renderer, on.views, scalingRounds(triangles), all);
         for (Drawn& drawn : all) {
             Row row{"scaling", subject.name, drawn.name, "triangles", double(drawn.last.triangleCount), {}};

@@ -24,7 +24,7 @@ Looks::Looks(Bench& bench, Contest& contest)
     const std::vector<Camera> path = cameraPath(points);
     views_ = {path[0], path[2]};
     for (const dvec3& p : points) bounds_.add(p);
-    const Model model(bench.device, {.dense = &contest.reference()});
+    const MeshModel model(bench.device, {.mesh = &contest.reference()});
     RenderOptions options;
     options.bounds = bounds_;
     options.lighting.castsShadows = false;
@@ -57,11 +57,11 @@ void Looks::compare(Look& look, Seen seen, const Seen& reference) {
 /// first, which compiles shaders, are timed.
 void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
     looks_.clear();
-    std::vector<std::unique_ptr<Model>> models;
+    std::vector<Model> models;
     models.reserve(all.size());
     for (const Drawable& drawable : all)
-        models.push_back(drawable.saving ? contest_.model(*drawable.saving)
-                                         : std::make_unique<Model>(bench_.device, ModelDesc{.dense = drawable.mesh}));
+        models.push_back(drawable.saving ? Model(std::move(*contest_.model(*drawable.saving)))
+                                         : Model(MeshModel(bench_.device, {.mesh = drawable.mesh})));
     for (std::size_t round = 0; round < kRounds; ++round)
         for (std::size_t i = 0; i < all.size(); ++i) {
             const bool isCompared = round < views_.size();
@@ -73,7 +73,7 @@ void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
             options.filtersHeights = false;
             options.camera = views_[round % views_.size()];
             if (all[i].saving) options.rate = all[i].saving->rate;
-            const Picture picture = renderer_.render(*models[i], options);
+            const Picture picture = renderer_.render(models[i], options);
             Look& look = looks_[all[i].name];
             if (round > 0 && all[i].isTimed) look.frame.push_back(picture.stats.wallMs);
             if (isCompared) compare(look, seen(picture), reference_[round]);

@@ -43,7 +43,7 @@ struct OnDevice {
     OnDevice(Device& device, const Subject& subject);
 
     Surface surface;
-    Model model;
+    SurfaceModel model;
     std::vector<Camera> views; ///< the camera's path: frame k sees view k mod 4
     Bounds bounds;
 
@@ -53,12 +53,12 @@ struct OnDevice {
 };
 
 /// Rates with heights from the map itself, without mips: geometry is compared as it is.
-EdgeRates exactRates(const Model& model, int rate);
+EdgeRates exactRates(const SurfaceModel& model, int rate);
 
 inline constexpr const char* kDense = "dense mesh, raw";
 /// The triangles of a surface at a rate, and the same on the device.
-DenseMesh denseMeshOf(Device& device, const Model& model, int rate);
-std::unique_ptr<Model> denseModel(Device& device, const DenseMesh& mesh);
+DenseMesh denseMeshOf(Device& device, const SurfaceModel& model, int rate);
+std::unique_ptr<MeshModel> denseModel(Device& device, const DenseMesh& mesh);
 
 /// The views from which everything is drawn: a turn around the object in four steps.
 std::vector<Camera> cameraPath(std::span<const dvec3> points);
@@ -66,7 +66,7 @@ std::vector<Camera> cameraPath(std::span<const dvec3> points);
 /// A contestant that is drawn: frames of the warm-up do not count.
 struct Drawn {
     std::string name;
-    const Model* model = nullptr;
+    Instance instance;
     RenderOptions options;
     std::function<void(int round)> pose = [](int) {}; ///< what moves it; a part of its frame
     std::vector<double> wall, poses, rates, dice, color, light;

@@ -73,7 +73,7 @@ private:
     double from_, to_, low_ = 0, high_ = 1;
 };
 
-struct Range {
+struct AxisRange {
     double low = INFINITY, high = -INFINITY;
     void add(double x) { low = std::min(low, x), high = std::max(high, x); }
 };
@@ -183,7 +183,7 @@ std::string wordOf(double value, Scale scale) {
 }
 
 std::string figureOf(const Plot& plot) {
-    Range xs, ys;
+    AxisRange xs, ys;
     for (const PlotLine& line : plot.lines)
         for (const auto* points : {&line.points, &line.upper})
             for (const dvec2& p : *points) xs.add(p.x), ys.add(p.y);

@@ -1,122 +1,128 @@
-// A displaced surface on the device, and the triangles made of it: rates, plans of draws, single points.
+// What of surfaces, triangle meshes and their maps lies on the device: plain data, filled by the constructors. What is
+// derived from a model (rates, tables of dicing) belongs to who derives it.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <span>
+#include <variant>
 
 #include "displacement/displacement.h"
 #include "gpu/gpu.h"
-#include "shared/scene.h"
+#include "mesh/mesh.h"
+#include "model/bounds.h"
+#include "shared/inputs.h"
 #include "surface/surface.h"
 
 namespace relief {
 
-// --- models on the device -----------------------------------------------------------------------------------------
+// --- maps ---------------------------------------------------------------------------------------------------------
 
-struct ModelDesc {
-    const Surface* surface = nullptr; ///< a subdivision surface with its posed cage points ...
-    std::span<const vec3> cagePositions;
-    const HeightMap* height = nullptr;
-    const DenseMesh* dense = nullptr; ///< ... or a dense mesh
-    const Image* albedo = nullptr;    ///< 3 or more channels, sRGB-encoded values 0..1
+/// A height map with its mip levels in words of the device (shared/maps.h).
+struct GpuHeightMap {
+    TexelBuffer words;
+    MapRecord record{};
+    MapFormat format = MapFormat::real;
+    float heightBound = 0; ///< largest |h|, cage units
 };
 
-class HeightPyramid;
-struct NormalBounds;
+/// A colour picture with its mip levels, sRGB-encoded.
+struct AlbedoMap {
+    Texture texture;
+    Wrap wrap = Wrap::repeat;
+};
 
-/// Points that patches are made of, one pose after another in a texel buffer: where each begins.
+// --- surfaces -----------------------------------------------------------------------------------------------------
+
+/// The points that patches are made of, one pose after another in one table: four floats per point, the last one
+/// unused.
 struct PointSets {
-    TexelBuffer texels;                ///< four floats a point, the last one unused
-    std::uint32_t now = 0, before = 0; ///< of this frame, and of the one that motion is measured from
-    std::optional<std::uint32_t> rest; ///< heights stretch with the surface since this one
+    TexelBuffer table;
+    std::uint32_t now = 0, before = 0; ///< where the pose of this frame begins, and that which motion is measured from
+    std::optional<std::uint32_t> rest; ///< heights stretch with the surface since this pose
 };
 
-/// What the device holds of a cage (or a dense mesh): flat arrays and maps. The desc may go away afterwards.
-class Model {
-public:
-    Model(Device& device, const ModelDesc& desc);
-    ~Model();
+struct SurfaceModelDesc {
+    const Surface* surface = nullptr;
+    std::span<const vec3> cagePositions; ///< one per vertex of the cage
+    const HeightMap* height = nullptr;   ///< null: the limit surface itself
+    const Image* albedo = nullptr;       ///< 3 or more channels, sRGB-encoded values 0..1
+};
 
-    /// Fills the model's part of a scene and of its bindings (kBind...; the samplers of images are not touched).
-    void describe(Scene& scene, std::span<Binding> bindings) const;
-    /// Takes another pose's points in place of its own (module pose makes them), and the boxes around its faces.
-    void usePoints(PointSets points);
-    void useFaceBounds(std::vector<Bounds> bounds);
-    /// Rates of all edges when a cage edge has `rate` segments: half of it, rounded up, for the halves of edges beside
-    /// n-gons.
-    [[nodiscard]] std::vector<float> uniformRates(float rate) const;
+/// A displaced subdivision surface. What its description points to may go away afterwards.
+struct SurfaceModel {
+    /// Throws Failure::device where a table is larger than the device reads or its memory holds.
+    SurfaceModel(Device& device, const SurfaceModelDesc& desc);
 
-    /// Lives as long as the model: what others derive from it and keep is theirs to drop after that.
-    [[nodiscard]] const std::shared_ptr<const int>& identity() const { return identity_; }
-    [[nodiscard]] bool isDense() const { return isDense_; }
-    [[nodiscard]] const Buffer& indices() const { return indices_; }          ///< of a dense mesh
-    [[nodiscard]] const Buffer& meshVertices() const { return mesh_.buffer; } ///< position with height, normal
-    [[nodiscard]] std::uint32_t indexCount() const { return indexCount_; }
-    [[nodiscard]] std::uint32_t vertexCount() const { return vertexCount_; } ///< of a dense mesh
-    [[nodiscard]] const std::vector<Face>& faces() const { return faces_; }
-    [[nodiscard]] const std::vector<Edge>& edges() const { return edges_; }
-    [[nodiscard]] const std::vector<std::uint32_t>& tree() const { return tree_; } ///< as Surface::tree
-    /// Bounds of the normals of displaced faces; empty unless the surface is closed and oriented.
-    [[nodiscard]] const std::vector<NormalBounds>& normalBounds() const { return normalBounds_; }
-    /// Boxes around displaced faces; empty ones for holes.
-    [[nodiscard]] const std::vector<Bounds>& faceBounds() const { return faceBounds_; }
-    /// Largest |h| on each face, cage units.
-    [[nodiscard]] const std::vector<float>& faceHeightBounds() const { return faceHeightBounds_; }
-    /// Whether heights grow with the surface since a rest pose.
-    [[nodiscard]] bool stretches() const { return points_.rest.has_value(); }
+    // On the device.
+    TexelBuffer recordTable, treeTable, texPointTable;
+    PointSets points;
+    pass::ModelTables
+        tables{}; ///< where records begin; those of points, of maps and of dicing are filled by describe()
+    std::optional<GpuHeightMap> height;
+    std::optional<AlbedoMap> albedo;
+    std::uint64_t byteCount = 0; ///< resident on the device: buffers and textures
+
+    // On the host: what plans of draws are made from.
+    std::vector<Face> faces;
+    std::vector<Edge> edges;
+    std::vector<std::uint32_t> tree;        ///< as Surface::tree
+    std::vector<std::uint32_t> cornerFlags; ///< per corner: kOn...
+    std::vector<bool> edgeIsHalf;           ///< per edge: half of a cage edge beside an n-gon, or as long as one
+    std::vector<bool> patchIsRegular;       ///< per patch: its points and its texture coordinates are bicubic
+    HeightPyramid heightPyramid;
+    std::vector<Bounds> faceBounds;         ///< boxes around displaced faces; empty ones for holes
+    std::vector<float> faceHeightBounds;    ///< largest |h| on each face, cage units
+    std::vector<NormalBounds> normalBounds; ///< of displaced faces; empty unless the surface is closed and oriented
+    int sideCount = 4;                      ///< of all faces: 4, or 3 of Loop surfaces
+    bool hasTexCoords = false;
+    bool hasWideIndices = false; ///< control points have 32-bit indices (shared/records.h)
+    bool hasStraightCorners = false;
+
+    /// Lives as long as the model: what others derive from the model and keep is dropped after that.
+    std::shared_ptr<const int> identity = std::make_shared<const int>(0);
+
+    [[nodiscard]] bool isTriangles() const { return sideCount == 3; }
+    [[nodiscard]] bool stretches() const { return points.rest.has_value(); }
     /// Whether it holds the pose that motion is measured from.
-    [[nodiscard]] bool hasMotion() const { return points_.before != points_.now; }
-    [[nodiscard]] const HeightPyramid& heightPyramid() const { return *heightPyramid_; }
-    /// Whether the points of a leaf patch and its texture coordinates are both bicubic.
-    [[nodiscard]] bool isRegular(std::uint32_t patch) const { return patchIsRegular_[patch]; }
-    [[nodiscard]] std::size_t cornerCount() const { return cornerFlags_.size(); }
-    [[nodiscard]] const std::vector<std::uint32_t>& cornerFlags() const { return cornerFlags_; } ///< kOn...
-    [[nodiscard]] int sideCount() const { return sideCount_; }
-    [[nodiscard]] bool isTriangles() const { return sideCount_ == 3; }
-    [[nodiscard]] bool hasTexCoords() const { return hasTexCoords_; }
-    [[nodiscard]] bool hasHeight() const { return mapSize_.x > 0; }
-    [[nodiscard]] bool hasAlbedoMap() const { return hasAlbedo_; }
-    [[nodiscard]] Wrap wrap() const { return wrap_; }
-    [[nodiscard]] MapFormat mapFormat() const { return mapFormat_; }
-    /// Whether control points are numbered with 32 bits (shared/records.h).
-    [[nodiscard]] bool hasWideIndices() const { return hasWideIndices_; }
-    [[nodiscard]] bool hasStraightCorners() const { return hasStraightCorners_; }
-    /// Bytes of the height map on the device, with its mips.
-    [[nodiscard]] std::uint64_t heightBytes() const { return hasHeight() ? heights_.buffer.bytes : 0; }
-    /// Bytes resident on the device: buffers and textures.
-    [[nodiscard]] std::uint64_t byteCount() const { return byteCount_; }
+    [[nodiscard]] bool hasMotion() const { return points.before != points.now; }
+    [[nodiscard]] MapFormat mapFormat() const { return height ? height->format : MapFormat::real; }
 
-private:
-    void uploadSurface(Device& device, const ModelDesc& desc);
-    void uploadDense(Device& device, const DenseMesh& mesh);
-    void uploadMaps(Device& device, const ModelDesc& desc);
-
-    PointSets points_;
-    TexelBuffer records_, words_, texPoints_, mesh_, meshTexCoords_, heights_;
-    Buffer indices_;
-    Texture albedoMap_;
-    std::uint32_t firstFace_ = 0, firstPatch_ = 0, firstEdge_ = 0, firstCorner_ = 0, firstIncidence_ = 0;
-    std::vector<Face> faces_;
-    std::vector<Edge> edges_;
-    std::vector<std::uint32_t> tree_;
-    std::shared_ptr<const int> identity_ = std::make_shared<const int>(0);
-    std::unique_ptr<HeightPyramid> heightPyramid_;
-    std::vector<Bounds> faceBounds_;
-    std::vector<float> faceHeightBounds_;
-    std::vector<NormalBounds> normalBounds_;
-    std::vector<std::uint32_t> mapFirsts_; ///< where the words of each level begin
-    std::vector<bool> edgeIsHalf_, patchIsRegular_;
-    std::vector<std::uint32_t> cornerFlags_;
-    std::uint32_t indexCount_ = 0, vertexCount_ = 0;
-    int sideCount_ = 4;
-    glm::ivec2 mapSize_{0};
-    float heightMid_ = 0, heightScale_ = 0, heightBound_ = 0;
-    MapFormat mapFormat_ = MapFormat::real;
-    Wrap wrap_ = Wrap::repeat;
-    bool isDense_ = false, hasWideIndices_ = false, hasStraightCorners_ = false, hasTexCoords_ = false,
-         hasAlbedo_ = false;
-    std::uint64_t byteCount_ = 0;
+    /// Takes another pose's points in place of its own (module pose makes them). Bounds of normals are dropped with the
+    /// old pose; those of faces stay until they are set.
+    void setPoints(PointSets other);
 };
+
+// --- triangle meshes ----------------------------------------------------------------------------------------------
+
+struct MeshModelDesc {
+    const DenseMesh* mesh = nullptr;
+    const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
+};
+
+/// A triangle mesh as it is: a dense one, the opponent of every comparison.
+struct MeshModel {
+    MeshModel(Device& device, const MeshModelDesc& desc);
+
+    TexelBuffer vertices;  ///< two texels per vertex: position with height, normal
+    TexelBuffer texCoords; ///< per vertex, or empty
+    Buffer indices;        ///< three 32-bit indices per triangle
+    std::optional<AlbedoMap> albedo;
+    std::uint32_t vertexCount = 0, triangleCount = 0;
+    bool hasTexCoords = false;
+    std::uint64_t byteCount = 0;
+};
+
+// --- either -------------------------------------------------------------------------------------------------------
+
+/// What a picture can be drawn of.
+using Model = std::variant<SurfaceModel, MeshModel>;
+
+inline bool isMesh(const Model& model) { return std::holds_alternative<MeshModel>(model); }
+inline const SurfaceModel* surfaceOf(const Model& model) { return std::get_if<SurfaceModel>(&model); }
+/// Bytes resident on the device.
+inline std::uint64_t byteCountOf(const Model& model) {
+    return std::visit([](const auto& either) { return either.byteCount; }, model);
+}
 
 } // namespace relief

@@ -1,30 +1,162 @@
 #include "model/stages.h"
 
 namespace relief {
+namespace {
 
-PipelineLayoutDesc passLayout() {
-    PipelineLayoutDesc layout{std::vector<VkDescriptorType>(kBindCount, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER),
-                              sizeof(PushConstants)};
-    layout.bindings[kBindScene] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    for (const std::uint32_t image :
-         {kBindAlbedo, kBindEnvironment, kBindShadow, kBindDepths, kBindNormals, kBindColors})
-        layout.bindings[image] = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    return layout;
+enum class BindingKind { inputs, words, floats, image };
+
+struct BindingRow {
+    std::uint32_t slot;
+    BindingKind kind;
+};
+
+/// The kinds of set 0's bindings (shared/bindings.h).
+constexpr BindingRow kBindings[] = {
+    {kBindInputs, BindingKind::inputs},        {kBindHeight, BindingKind::words},
+    {kBindAlbedo, BindingKind::image},         {kBindEnvironment, BindingKind::image},
+    {kBindShadow, BindingKind::image},         {kBindRecords, BindingKind::words},
+    {kBindTree, BindingKind::words},           {kBindPoints, BindingKind::floats},
+    {kBindTexPoints, BindingKind::floats},     {kBindEdgeRates, BindingKind::floats},
+    {kBindDrawFaces, BindingKind::words},      {kBindMesh, BindingKind::floats},
+    {kBindMeshTexCoords, BindingKind::floats}, {kBindDiceTable, BindingKind::words},
+    {kBindDiceTiles, BindingKind::words},      {kBindDiceFirsts, BindingKind::words},
+    {kBindLevels, BindingKind::floats},        {kBindEdgeHeights, BindingKind::floats},
+    {kBindDepths, BindingKind::image},         {kBindNormals, BindingKind::image},
+    {kBindColors, BindingKind::image},         {kBindInstances, BindingKind::image},
+};
+static_assert(std::size(kBindings) == kBindCount);
+
+constexpr VkDescriptorType kTableType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+
+VkDescriptorType descriptorType(BindingKind kind) {
+    switch (kind) {
+    case BindingKind::inputs: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    case BindingKind::image: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    default: return kTableType;
+    }
+}
+
+void describeAlbedo(const std::optional<AlbedoMap>& albedo, PassBindings& bindings) {
+    if (albedo) bindings[kBindAlbedo].view = albedo->texture.view.get();
+}
+
+} // namespace
+
+std::vector<std::uint32_t> ShaderConstants::values() const {
+    std::vector<std::uint32_t> values(kIdCount, 0);
+    values[kIdGenericBasis] = isGenericBasis;
+    values[kIdHasTexCoords] = hasTexCoords;
+    values[kIdHasHeight] = hasHeight;
+    values[kIdNormal] = std::uint32_t(normal);
+    values[kIdWantsTexCoords] = wantsTexCoords;
+    values[kIdShow] = show;
+    values[kIdHasAlbedoMap] = hasAlbedoMap;
+    values[kIdGroupSize] = groupSize;
+    values[kIdHasMips] = hasMips;
+    values[kIdIsCommon] = isCommon;
+    values[kIdStretches] = stretches;
+    values[kIdHasMotion] = hasMotion;
+    values[kIdMapFormat] = std::uint32_t(mapFormat);
+    values[kIdHasWideIndices] = hasWideIndices;
+    values[kIdHasStraightCorners] = hasStraightCorners;
+    values[kIdPass] = pass;
+    values[kIdIsMesh] = isMesh;
+    values[kIdIsPlaced] = isPlaced;
+    values[kIdHasInstances] = hasInstances;
+    values[kIdEntries] = entryCount;
+    return values;
+}
+
+ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
+    return {.hasTexCoords = model.hasTexCoords,
+            .hasHeight = model.height.has_value(),
+            .normal = normal,
+            .stretches = model.stretches(),
+            .mapFormat = model.mapFormat(),
+            .hasWideIndices = model.hasWideIndices,
+            .hasStraightCorners = model.hasStraightCorners};
+}
+
+ShaderConstants constantsOf(const MeshModel& model) { return {.hasTexCoords = model.hasTexCoords, .isMesh = true}; }
+
+std::uint64_t largestTable(const Device& device, std::uint64_t elementBytes) {
+    return elementBytes * device.traits().maxTexelBufferElements;
 }
 
 TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words) {
     return uploadTexels(device, {.name = name}, VK_FORMAT_R32_UINT, std::as_bytes(words));
 }
 
-Buffer makeSceneBuffer(Device& device) {
-    return makeBuffer(device, {.name = "scene",
-                               .bytes = sizeof(Scene),
+void bindTable(Binding& binding, const TexelBuffer& table) { binding.texels = table.view.get(); }
+
+PipelineLayoutDesc tableLayout(const Device&, std::uint32_t count, std::uint32_t pushBytes) {
+    return {std::vector<VkDescriptorType>(count, kTableType), pushBytes};
+}
+
+Stage shaderStage(const Device&, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles) {
+    return {stage, shaderCode(file, isTriangles)};
+}
+
+PipelineLayoutDesc passLayout(const Device&) {
+    PipelineLayoutDesc layout{std::vector<VkDescriptorType>(kBindCount), kPushBytes};
+    for (const BindingRow& row : kBindings) layout.bindings[row.slot] = descriptorType(row.kind);
+    return layout;
+}
+
+Buffer makeInputBuffer(Device& device) {
+    return makeBuffer(device, {.name = "pass inputs",
+                               .bytes = sizeof(PassInputs),
                                .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
 }
 
-void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene) {
-    vkCmdUpdateBuffer(commands, buffer.handle.get(), 0, sizeof(Scene), &scene);
+void writeInputs(VkCommandBuffer commands, const Buffer& buffer, const PassInputs& inputs) {
+    vkCmdUpdateBuffer(commands, buffer.handle.get(), 0, sizeof(PassInputs), &inputs);
     barrier(commands);
+}
+
+PassResources::PassResources(Device& device)
+    : inputs_(makeInputBuffer(device)),
+      noWords_(uploadTexels(device, {.name = "no words"}, VK_FORMAT_R32G32B32A32_UINT, {})),
+      noFloats_(uploadTexels(device, {.name = "no floats"}, VK_FORMAT_R32G32B32A32_SFLOAT, {})),
+      noImage_(uploadTexture(device, {.name = "no image"}, std::as_bytes(std::span("\0\0\0", 4)), 4)),
+      sampler_(makeSampler(device, {})) {}
+
+PassBindings PassResources::bindings() const {
+    PassBindings bindings;
+    for (const BindingRow& row : kBindings) {
+        Binding& binding = bindings[row.slot];
+        switch (row.kind) {
+        case BindingKind::inputs: binding.uniform = inputs_.handle.get(); break;
+        case BindingKind::words: bindTable(binding, noWords_); break;
+        case BindingKind::floats: bindTable(binding, noFloats_); break;
+        case BindingKind::image: binding.view = noImage_.view.get(), binding.sampler = sampler_.get(); break;
+        }
+    }
+    return bindings;
+}
+
+void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindings) {
+    inputs.model = model.tables;
+    inputs.model.pointsNow = model.points.now;
+    inputs.model.pointsBefore = model.points.before;
+    inputs.model.pointsRest = model.points.rest.value_or(0);
+    bindTable(bindings[kBindRecords], model.recordTable);
+    bindTable(bindings[kBindTree], model.treeTable);
+    bindTable(bindings[kBindPoints], model.points.table);
+    bindTable(bindings[kBindTexPoints], model.texPointTable);
+    if (model.height) {
+        inputs.model.maps[0] = model.height->record;
+        inputs.model.heightBound = model.height->heightBound;
+        bindTable(bindings[kBindHeight], model.height->words);
+    }
+    describeAlbedo(model.albedo, bindings);
+}
+
+void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings) {
+    inputs.model.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
+    bindTable(bindings[kBindMesh], model.vertices);
+    bindTable(bindings[kBindMeshTexCoords], model.texCoords);
+    describeAlbedo(model.albedo, bindings);
 }
 
 } // namespace relief

@@ -1,77 +1,93 @@
-// What every shader stage is given: constants, push constants, set 0. Used here and by frame.
+// What shader stages are given: specialization constants, set 0, and the models' part of both. For triangles, pose and
+// frame.
 #pragma once
 
 #include "model/model.h"
 #include "model/records.h"
 #include "model/shaders.h"
+#include "shared/bindings.h"
+#include "shared/constants.h"
+#include "shared/push.h"
 
 namespace relief {
 
-/// The block in scene.glsl.
-struct PushConstants {
-    std::uint32_t passNumber = 0;
-    std::uint32_t drawsShadow = 0;
-    std::uint32_t passRows = 0;
-    std::uint32_t passFirst = 0;
-};
+// --- specialization constants --------------------------------------------------------------------------------------
 
-/// Set 0 of every pass (kBind...).
-PipelineLayoutDesc passLayout();
-
-/// Specialization constants 0..14 in the order of the shaders' constant_id.
+/// One member per id of shared/constants.h.
 struct ShaderConstants {
     bool isGenericBasis = false, hasTexCoords = false, hasHeight = false;
     NormalKind normal = NormalKind::full;
     bool wantsTexCoords = false;
     std::uint32_t show = kShowShaded;
     bool hasAlbedoMap = false;
-    std::uint32_t groupSize = 64; ///< dicing: invocations of a workgroup
-    bool hasMips = false;
-    bool isCommon = false;  ///< dicing: insides in bicubic patches, triangles between inner samples
-    bool stretches = false; ///< heights grow with the surface
-    bool hasMotion = false; ///< layers: the surface was in another pose before
+    std::uint32_t groupSize = 64;
+    bool hasMips = false, isCommon = false, stretches = false, hasMotion = false;
     MapFormat mapFormat = MapFormat::real;
-    bool hasWideIndices = false;
-    bool hasStraightCorners = false;
+    bool hasWideIndices = false, hasStraightCorners = false;
+    std::uint32_t pass = kPassSurface;
+    bool isMesh = false, isPlaced = false, hasInstances = false;
+    std::uint32_t entryCount = 0; ///< kIdEntries
 
-    [[nodiscard]] std::vector<std::uint32_t> values() const {
-        return {isGenericBasis,
-                hasTexCoords,
-                hasHeight,
-                std::uint32_t(normal),
-                wantsTexCoords,
-                show,
-                hasAlbedoMap,
-                groupSize,
-                hasMips,
-                isCommon,
-                stretches,
-                hasMotion,
-                std::uint32_t(mapFormat),
-                hasWideIndices,
-                hasStraightCorners};
-    }
+    /// One value per id, in the order of ids.
+    [[nodiscard]] std::vector<std::uint32_t> values() const;
 };
 
-inline void pushConstants(VkCommandBuffer commands, const Pipeline& pipeline, const PushConstants& constants) {
-    push(commands, pipeline, std::as_bytes(std::span(&constants, 1)));
-}
+/// What follows from a model alone.
+ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal);
+ShaderConstants constantsOf(const MeshModel& model);
 
-/// Texel buffers that change from frame to frame.
+// --- tables --------------------------------------------------------------------------------------------------------
+
+/// The most bytes that shaders read from one table of elements of that many bytes.
+std::uint64_t largestTable(const Device& device, std::uint64_t elementBytes);
+
+/// A table of 32-bit words.
 TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words);
 
-/// A uniform buffer that holds one Scene; written inside a command buffer.
-Buffer makeSceneBuffer(Device& device);
-void writeScene(VkCommandBuffer commands, const Buffer& buffer, const Scene& scene);
+void bindTable(Binding& binding, const TexelBuffer& table);
 
-inline ShaderConstants constantsOf(const Model& model, NormalKind normal) {
-    return {.hasTexCoords = model.hasTexCoords(),
-            .hasHeight = model.hasHeight(),
-            .normal = normal,
-            .stretches = model.stretches(),
-            .mapFormat = model.mapFormat(),
-            .hasWideIndices = model.hasWideIndices(),
-            .hasStraightCorners = model.hasStraightCorners()};
+/// The layout of `count` tables alone, bindings 0 to count - 1.
+PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::uint32_t pushBytes);
+
+/// SPIR-V of a stage for this device's way of reading tables, for faces with four sides or three.
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles = false);
+
+// --- set 0 ---------------------------------------------------------------------------------------------------------
+
+/// Set 0 of every pass (kBind...) with room for push constants.
+PipelineLayoutDesc passLayout(const Device& device);
+
+using PassBindings = std::array<Binding, kBindCount>;
+
+/// A uniform buffer that holds one PassInputs.
+Buffer makeInputBuffer(Device& device);
+/// Writes it in a command buffer, before the passes that read it.
+void writeInputs(VkCommandBuffer commands, const Buffer& buffer, const PassInputs& inputs);
+
+/// The uniform buffer of a pass, and what is bound where a pass has nothing of its own: every binding is filled,
+/// because Mesa 22.3's CPU driver walks all descriptors of a set, whether or not a shader reads them.
+class PassResources {
+public:
+    explicit PassResources(Device& device);
+
+    [[nodiscard]] PassBindings bindings() const;
+    void write(VkCommandBuffer commands, const PassInputs& inputs) const { writeInputs(commands, inputs_, inputs); }
+
+private:
+    Buffer inputs_;
+    TexelBuffer noWords_, noFloats_;
+    Texture noImage_;
+    Owned<VkSampler> sampler_;
+};
+
+/// Fills a model's part of the inputs and binds its tables. The albedo map keeps the sampler that is bound.
+void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindings);
+void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings);
+
+/// Records the push constants of a pass.
+template <typename Push>
+void pushConstants(VkCommandBuffer commands, const Pipeline& pipeline, const Push& block) {
+    push(commands, pipeline, std::as_bytes(std::span(&block, 1)));
 }
 
 } // namespace relief

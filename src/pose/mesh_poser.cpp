@@ -22,7 +22,7 @@ std::vector<vec4> verticesOf(std::span<const vec3> positions, std::span<const ve
 
 struct MeshPoser::Parts {
     Device& device;
-    const Model& model;
+    MeshModel& model;
     PosePush push;
     TexelBuffer rest, joints, influences, upload;
     Buffer staging; ///< of vertices that the processor has posed
@@ -30,7 +30,7 @@ struct MeshPoser::Parts {
     BindingSet set;
 };
 
-MeshPoser::MeshPoser(Device& device, const Model& model, const DenseMesh& mesh, const Rig& rig)
+MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, const Rig& rig)
     : parts_(new Parts{.device = device, .model = model}) {
     Parts& p = *parts_;
     const std::vector<vec4> vertices = verticesOf(mesh.positions, mesh.normals);
@@ -42,21 +42,21 @@ MeshPoser::MeshPoser(Device& device, const Model& model, const DenseMesh& mesh, 
     p.influences = texels("mesh joint weights", VK_FORMAT_R32_SFLOAT, std::span(rig.weights));
     p.upload = makeTexels(device,
                           {.name = "mesh pose",
-                           .bytes = std::uint64_t(kFloatsAJoint) * rig.jointCount * sizeof(float),
+                           .bytes = std::uint64_t(kFloatsPerJoint) * rig.jointCount * sizeof(float),
                            .memory = MemoryUse::upload},
                           VK_FORMAT_R32_SFLOAT);
     p.staging = makeBuffer(device, {.name = "posed mesh",
                                     .bytes = vertices.size() * sizeof(vec4),
                                     .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                     .memory = MemoryUse::upload});
-    p.pipeline = makePosePipeline(device, "pose_mesh.comp", {});
-    Binding bindings[kPoseBindCount];
-    for (Binding& binding : bindings) binding.texels = p.rest.view.get(); // every one is bound, read or not
-    bindings[kPoseUpload].texels = p.upload.view.get();
-    bindings[kPoseJoints].texels = p.joints.view.get();
-    bindings[kPoseInfluences].texels = p.influences.view.get();
-    p.set = makeBindingSet(device, p.pipeline, poseLayout(), bindings);
-    p.push.target = model.meshVertices().address;
+    p.pipeline = makePosePipeline(device, "pose_mesh.comp");
+    PoseBindings bindings;
+    for (Binding& binding : bindings) bindTable(binding, p.rest); // every one is bound, read or not
+    bindTable(bindings[kPoseUpload], p.upload);
+    bindTable(bindings[kPoseJoints], p.joints);
+    bindTable(bindings[kPoseInfluences], p.influences);
+    p.set = makeBindingSet(device, p.pipeline, poseLayout(device), bindings);
+    p.push.target = model.vertices.buffer.address;
     p.push.pointCount = std::uint32_t(mesh.positions.size());
     p.push.influenceCount = rig.influenceCount;
 }
@@ -87,7 +87,7 @@ std::uint64_t MeshPoser::upload(std::span<const vec3> positions, std::span<const
     std::memcpy(p.staging.mapped, vertices.data(), bytes);
     p.device.run([&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
-        vkCmdCopyBuffer(commands, p.staging.handle.get(), p.model.meshVertices().handle.get(), 1, &region);
+        vkCmdCopyBuffer(commands, p.staging.handle.get(), p.model.vertices.buffer.handle.get(), 1, &region);
         barrier(commands);
     });
     return bytes;

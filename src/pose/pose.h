@@ -37,7 +37,7 @@ class FaceSupports {
 public:
     explicit FaceSupports(const Surface& surface);
 
-    /// `heightBounds`: the largest height of each face (Model::faceHeightBounds). Boxes of holes are empty.
+    /// `heightBounds`: the largest height of each face (SurfaceModel::faceHeightBounds). Boxes of holes are empty.
     [[nodiscard]] std::vector<Bounds> bounds(std::span<const vec3> cagePositions, std::span<const float> heightBounds) const;
 
 private:
@@ -69,7 +69,7 @@ struct PoseStats {
 /// Takes the model's points over, and with them the boxes around its faces. The model has to outlive it.
 class Poser {
 public:
-    Poser(Device& device, Model& model, const PoserDesc& desc);
+    Poser(Device& device, SurfaceModel& model, const PoserDesc& desc);
     ~Poser();
 
     /// Throws Failure::input when the pose has other counts than the rig or the cage, or numbers that are not finite.
@@ -90,7 +90,7 @@ private:
 class MeshPoser {
 public:
     /// `rig`: of the mesh's vertices, joints alone. The model, made of the mesh, has to outlive it.
-    MeshPoser(Device& device, const Model& model, const DenseMesh& mesh, const Rig& rig);
+    MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, const Rig& rig);
     ~MeshPoser();
 
     /// Skins positions and normals on the device.

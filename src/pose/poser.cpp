@@ -23,10 +23,10 @@ void appendFloats(std::vector<float>& floats, std::span<const vec3> points) {
 } // namespace
 
 struct Poser::Parts {
-    Parts(Device& device, Model& model, const PoserDesc& desc);
+    Parts(Device& device, SurfaceModel& model, const PoserDesc& desc);
 
     Device& device;
-    Model& model;
+    SurfaceModel& model;
     FaceSupports supports;
     std::optional<Rig> rig;
     float mostStretch = 1;
@@ -53,14 +53,14 @@ struct Poser::Parts {
     void addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
                  std::uint32_t endBlock);
     void runPass(VkCommandBuffer commands, const PointsPass& pass, const BindingSet& set) const;
-    void bindAll(VkBufferView points);
+    void bindAll(const TexelBuffer& points);
     void checkPose(const Pose& pose) const;
     /// What goes to the device: the posed cage, or what moves its rig.
     [[nodiscard]] std::vector<float> uploadOf(const Pose& pose) const;
     void evaluate(std::span<const float> floats, std::uint32_t firstPoint, bool isRigged);
 };
 
-Poser::Parts::Parts(Device& device, Model& model, const PoserDesc& desc)
+Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
     : device(device), model(model), supports(*desc.surface) {
     if (desc.rig != nullptr) rig = *desc.rig;
     const Surface& surface = *desc.surface;
@@ -72,22 +72,22 @@ Poser::Parts::Parts(Device& device, Model& model, const PoserDesc& desc)
     if (desc.keepsBefore) setFirsts.push_back(setSize);
 
     PointSets sets;
-    sets.texels = makeTexels(device,
+    sets.table = makeTexels(device,
                              {.name = "posed points",
                               .bytes = std::uint64_t(setCount) * setSize * sizeof(vec4),
                               .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
                              VK_FORMAT_R32G32B32A32_SFLOAT);
     sets.before = setFirsts.back();
     if (stretches) sets.rest = (setCount - 1) * setSize;
-    push.target = sets.texels.buffer.address;
+    push.target = sets.table.buffer.address;
     const StencilBlocks blocks = stencilBlocks(surface.stencils);
     uploadStencils(blocks);
     uploadRig();
     makePasses(blocks);
-    bindAll(sets.texels.view.get());
+    bindAll(sets.table);
     const std::optional<std::uint32_t> firstRest = sets.rest;
     if (stretches) mostStretch = float(formulas::kMostStretch);
-    model.usePoints(std::move(sets));
+    model.setPoints(std::move(sets));
     std::vector<float> restFloats;
     appendFloats(restFloats, desc.restPositions);
     if (firstRest) evaluate(restFloats, *firstRest, false);
@@ -115,7 +115,7 @@ void Poser::Parts::uploadRig() {
     joints = uploadTexels(device, {.name = "joints"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(r.joints)));
     influences =
         uploadTexels(device, {.name = "joint weights"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(r.weights)));
-    const std::uint64_t rigFloats = r.morphCount + std::uint64_t(kFloatsAJoint) * r.jointCount;
+    const std::uint64_t rigFloats = r.morphCount + std::uint64_t(kFloatsPerJoint) * r.jointCount;
     for (TexelBuffer& upload : uploads)
         upload = makeTexels(device,
                             {.name = "pose",
@@ -125,7 +125,7 @@ void Poser::Parts::uploadRig() {
 }
 
 void Poser::Parts::makePasses(const StencilBlocks& blocks) {
-    cagePipeline = makePosePipeline(device, "pose_cage.comp", {});
+    cagePipeline = makePosePipeline(device, "pose_cage.comp");
     std::uint32_t block = blocks.sharedBlockCount;
     if (block > 0) {
         addPass(0, blocks, 0, block);
@@ -143,21 +143,21 @@ void Poser::Parts::makePasses(const StencilBlocks& blocks) {
 void Poser::Parts::addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
                            std::uint32_t endBlock) {
     const std::uint32_t groupSize = entryCount == 0 ? kPointsGroup : kLanes;
-    passes.push_back({makePosePipeline(device, "pose_points.comp", {entryCount, 0, 0, 0, 0, 0, 0, groupSize}),
+    passes.push_back({makePosePipeline(device, "pose_points.comp", {.groupSize = groupSize, .entryCount = entryCount}),
                       firstBlock, endBlock, blocks.firsts[firstBlock], entryCount});
 }
 
-void Poser::Parts::bindAll(VkBufferView points) {
+void Poser::Parts::bindAll(const TexelBuffer& points) {
     for (int i = 0; i < 2; ++i) {
-        Binding bindings[kPoseBindCount];
-        bindings[kPoseUpload].texels = uploads[i].view.get();
-        bindings[kPoseRest].texels = rest.view.get();
-        bindings[kPoseJoints].texels = joints.view.get();
-        bindings[kPoseInfluences].texels = influences.view.get();
-        bindings[kPosePoints].texels = points;
-        bindings[kPoseWords].texels = words.view.get();
-        bindings[kPoseWeights].texels = weights.view.get();
-        sets[i] = makeBindingSet(device, cagePipeline, poseLayout(), bindings);
+        PoseBindings bindings;
+        bindTable(bindings[kPoseUpload], uploads[i]);
+        bindTable(bindings[kPoseRest], rest);
+        bindTable(bindings[kPoseJoints], joints);
+        bindTable(bindings[kPoseInfluences], influences);
+        bindTable(bindings[kPosePoints], points);
+        bindTable(bindings[kPoseWords], words);
+        bindTable(bindings[kPoseWeights], weights);
+        sets[i] = makeBindingSet(device, cagePipeline, poseLayout(device), bindings);
     }
 }
 
@@ -200,8 +200,8 @@ void Poser::Parts::evaluate(std::span<const float> floats, std::uint32_t firstPo
 
 void Poser::Parts::runPass(VkCommandBuffer commands, const PointsPass& pass, const BindingSet& set) const {
     bind(commands, pass.pipeline, set);
-    const std::uint32_t blocksAGroup = pass.entryCount == 0 ? kPointsGroup / kBlockRows : 1;
-    const std::uint32_t blocksAtOnce = kGroupsAtOnce * blocksAGroup;
+    const std::uint32_t blocksPerGroup = pass.entryCount == 0 ? kPointsGroup / kBlockRows : 1;
+    const std::uint32_t blocksAtOnce = kGroupsAtOnce * blocksPerGroup;
     for (std::uint32_t block = pass.firstBlock; block < pass.endBlock; block += blocksAtOnce) {
         const std::uint32_t count = std::min(pass.endBlock - block, blocksAtOnce);
         PosePush part = push;
@@ -209,11 +209,11 @@ void Poser::Parts::runPass(VkCommandBuffer commands, const PointsPass& pass, con
         part.endBlock = block + count;
         part.firstBlockEntry = pass.firstEntry + (block - pass.firstBlock) * pass.entryCount;
         relief::push(commands, pass.pipeline, std::as_bytes(std::span(&part, 1)));
-        vkCmdDispatch(commands, (count + blocksAGroup - 1) / blocksAGroup, 1, 1);
+        vkCmdDispatch(commands, (count + blocksPerGroup - 1) / blocksPerGroup, 1, 1);
     }
 }
 
-Poser::Poser(Device& device, Model& model, const PoserDesc& desc)
+Poser::Poser(Device& device, SurfaceModel& model, const PoserDesc& desc)
     : parts_(std::make_unique<Parts>(device, model, desc)) {}
 Poser::~Poser() = default;
 
@@ -228,7 +228,7 @@ void Poser::pose(const Pose& now, const Pose* before) {
     parts.stats.milliseconds =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
-    std::vector<float> heightBounds = parts.model.faceHeightBounds();
+    std::vector<float> heightBounds = parts.model.faceHeightBounds;
     for (float& reach : heightBounds) reach *= parts.mostStretch;
     std::vector<Bounds> boxes = parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
     parts.bounds = {};
@@ -237,7 +237,7 @@ void Poser::pose(const Pose& now, const Pose* before) {
         parts.bounds.add(box.lower);
         parts.bounds.add(box.upper);
     }
-    parts.model.useFaceBounds(std::move(boxes));
+    parts.model.faceBounds = std::move(boxes);
 }
 
 const PoseStats& Poser::stats() const { return parts_->stats; }

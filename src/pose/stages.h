@@ -1,28 +1,23 @@
 // Internal: what every shader that poses is given.
 #pragma once
 
+#include <array>
 #include <cmath>
 
-#include "model/shaders.h"
+#include "model/stages.h"
 #include "pose/pose.h"
 #include "shared/pose.h"
 
 namespace relief {
 
 constexpr std::uint32_t kGroupsAtOnce = 65535; ///< of a dispatch, in every device
-constexpr std::uint32_t kFloatsAJoint = 12;    ///< three rows: joints are affine
+constexpr std::uint32_t kFloatsPerJoint = 12;    ///< three rows: joints are affine
 
-/// The block in pose.glsl.
-struct PosePush {
-    std::uint64_t target = 0;
-    std::uint32_t firstPoint = 0, pointCount = 0;
-    std::uint32_t firstBlock = 0, endBlock = 0, firstBlockEntry = 0, firstTarget = 0, firstEntry = 0;
-    std::uint32_t influenceCount = 0, morphCount = 0, isRigged = 0;
-};
-
-inline PipelineLayoutDesc poseLayout() {
-    return {std::vector<VkDescriptorType>(kPoseBindCount, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER), sizeof(PosePush)};
+inline PipelineLayoutDesc poseLayout(const Device& device) {
+    return tableLayout(device, kPoseBindCount, sizeof(PosePush));
 }
+
+using PoseBindings = std::array<Binding, kPoseBindCount>;
 
 inline std::vector<vec4> padded(std::span<const vec3> first, std::span<const vec3> second = {}) {
     std::vector<vec4> texels;
@@ -32,11 +27,11 @@ inline std::vector<vec4> padded(std::span<const vec3> first, std::span<const vec
     return texels;
 }
 
-inline Pipeline makePosePipeline(Device& device, const char* file, std::vector<std::uint32_t> constants) {
+inline Pipeline makePosePipeline(Device& device, const char* file, const ShaderConstants& constants = {}) {
     return makeCompute(device, {.name = file,
-                                .stage = {VK_SHADER_STAGE_COMPUTE_BIT, shaderCode(file)},
-                                .constants = std::move(constants),
-                                .layout = poseLayout()});
+                                .stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file),
+                                .constants = constants.values(),
+                                .layout = poseLayout(device)});
 }
 
 inline void checkFinite(std::span<const float> floats) {

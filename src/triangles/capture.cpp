@@ -11,9 +11,9 @@ constexpr std::uint32_t kCapturedBytes = 16; ///< position, 1 on a boundary
 } // namespace
 
 struct Capturer::Parts {
-    explicit Parts(Device& device) : device(device), inputs(device), dicer(device) {}
+    explicit Parts(Device& device) : device(device), resources(device), dicer(device) {}
     Device& device;
-    GeometryInputs inputs;
+    PassResources resources;
     Dicer dicer;
     std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
 };
@@ -22,7 +22,7 @@ namespace {
 
 struct Capture {
     Capturer::Parts& parts;
-    const Model& model;
+    const SurfaceModel& model;
     const TriangleOptions& options;
     const EdgeRates& rates;
     Device& device = parts.device;
@@ -49,7 +49,7 @@ struct Capture {
         return parts.pipelines[key] = makeGraphics(device, {.name = "capture",
                                                             .stages = stages,
                                                             .constants = constants.values(),
-                                                            .layout = GeometryInputs::layout(),
+                                                            .layout = passLayout(device),
                                                             .topology = topology,
                                                             .rasterizerDiscard = true,
                                                             .colorFormats = {},
@@ -59,19 +59,19 @@ struct Capture {
     /// Runs `draw` with everything bound.
     template <typename Draw>
     void run(const Pipeline& pipeline, const DrawPlan& plan, const Buffer& target, const Draw& draw) {
-        const RateTexels rateTexels = uploadRates(device, model, rates);
+        const RateTables rateTables = uploadRates(device, model, rates);
         const TexelBuffer drawFaces = uploadWords(device, "faces to draw", plan.faces);
-        Scene scene{};
-        Binding bindings[kBindDepths];
-        parts.inputs.fill(model, scene, bindings);
-        scene.captureTarget = target.address;
-        useRates(model, rates, rateTexels, scene, bindings);
-        bindings[kBindDrawFaces].texels = drawFaces.view.get();
-        const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
+        PassInputs inputs{};
+        PassBindings bindings = parts.resources.bindings();
+        describe(model, inputs, bindings);
+        inputs.targets.captured = target.address;
+        describeRates(model, rates, rateTables, inputs, bindings);
+        bindTable(bindings[kBindDrawFaces], drawFaces);
+        const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
         device.run([&](VkCommandBuffer commands) {
             constexpr std::uint32_t notANumber = 0xffffffffu; // what is never written must not look like a point
             vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, notANumber);
-            writeScene(commands, parts.inputs.scene(), scene);
+            parts.resources.write(commands, inputs);
             VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
             info.renderArea = {{0, 0}, {1, 1}};
             info.layerCount = 1;
@@ -110,11 +110,11 @@ CapturedMesh Capture::patches() {
     const DrawPlan plan = planPatches(
         model, rates, options.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw));
     const bool isTriangles = model.isTriangles();
-    const Pipeline& pipeline =
-        pipelineOf({{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("patch.vert", isTriangles)},
-                    {VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, shaderCode("patch.tesc", isTriangles)},
-                    {VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, shaderCode("patch_capture.tese", isTriangles)}},
-                   VK_PRIMITIVE_TOPOLOGY_PATCH_LIST);
+    const Pipeline& pipeline = pipelineOf(
+        {shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "patch.vert", isTriangles),
+         shaderStage(device, VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", isTriangles),
+         shaderStage(device, VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch_capture.tese", isTriangles)},
+        VK_PRIMITIVE_TOPOLOGY_PATCH_LIST);
     const std::uint64_t vertexCount = plan.triangleCount * 3;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT);
     const auto bindTarget = PFN_vkCmdBindTransformFeedbackBuffersEXT(
@@ -124,7 +124,6 @@ CapturedMesh Capture::patches() {
     const auto end =
         PFN_vkCmdEndTransformFeedbackEXT(vkGetDeviceProcAddr(device.handle(), "vkCmdEndTransformFeedbackEXT"));
     run(pipeline, plan, target, [&](VkCommandBuffer commands) {
-        pushConstants(commands, pipeline, {});
         const VkBuffer buffer = target.handle.get();
         const VkDeviceSize offset = 0, size = target.bytes;
         bindTarget(commands, 0, 1, &buffer, &offset, &size);
@@ -143,7 +142,7 @@ CapturedMesh Capture::grids() {
              device.traits().name);
     const DrawPlan plan = planGrids(model, rates);
     const Pipeline& pipeline =
-        pipelineOf({{VK_SHADER_STAGE_VERTEX_BIT, shaderCode("grid_capture.vert", model.isTriangles())}},
+        pipelineOf({shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "grid_capture.vert", model.isTriangles())},
                    VK_PRIMITIVE_TOPOLOGY_POINT_LIST);
     std::uint64_t vertexCount = 0;
     for (const DrawBatch& b : plan.batches) vertexCount += std::uint64_t(b.columns + 1) * (b.rows + 1) * b.faceCount;
@@ -154,7 +153,7 @@ CapturedMesh Capture::grids() {
             const std::uint32_t size = (b.columns + 1) * (b.rows + 1);
             // Instances count from firstFace: where instance 0 would be, in arithmetic that wraps.
             const std::uint32_t base = first - b.firstFace * size;
-            pushConstants(commands, pipeline, {.passNumber = b.columns, .passRows = b.rows, .passFirst = base});
+            pushConstants(commands, pipeline, GridPush{b.columns, b.rows, base});
             vkCmdDraw(commands, size, b.faceCount, 0, b.firstFace);
             first += size * b.faceCount;
         }
@@ -184,7 +183,7 @@ CapturedMesh Capture::diced() {
 Capturer::Capturer(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 Capturer::~Capturer() = default;
 
-CapturedMesh Capturer::capture(const Model& model, const TriangleOptions& options, const EdgeRates& rates) {
+CapturedMesh Capturer::capture(const SurfaceModel& model, const TriangleOptions& options, const EdgeRates& rates) {
     Capture capture{*parts_, model, options, rates};
     if (options.path == Path::dice) return capture.diced();
     return options.path == Path::grid ? capture.grids() : capture.patches();

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "shared/dice.h"
 #include "shared/rates.h"
 #include "triangles/dice_table.h"
 #include "triangles/stages.h"
@@ -35,15 +36,15 @@ struct Work {
 
 class WorkBuilder {
 public:
-    WorkBuilder(const Model& model, const DiceTable& table, const EdgeRates& rates)
+    WorkBuilder(const SurfaceModel& model, const DiceTable& table, const EdgeRates& rates)
         : model_(model), table_(table), rates_(rates) {}
 
     Work build() {
         addRuns();
-        for (std::uint32_t face = 0; face < model_.faces().size(); ++face) {
+        for (std::uint32_t face = 0; face < model_.faces.size(); ++face) {
             work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
             work_.faceRates.push_back(0);
-            if (model_.faces()[face].root != kNoPatch) addFace(face);
+            if (model_.faces[face].root != kNoPatch) addFace(face);
         }
         work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
         const auto others =
@@ -59,18 +60,21 @@ private:
             work_.vertexCount += run.isCorner != 0 ? 1 : rates_.segments(run.element) - 1;
         }
         work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
-        work_.sampleCount = model_.cornerCount();
-        for (std::uint32_t edge = 0; edge < model_.edges().size(); ++edge)
-            work_.sampleCount += rates_.segments(edge) - 1;
+        work_.sampleCount = model_.cornerFlags.size();
+        for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge) work_.sampleCount += rates_.segments(edge) - 1;
     }
 
     void addFace(std::uint32_t face) {
         const FaceSegments f = faceSegments(model_, rates_, face);
         work_.faceRates.back() = std::uint32_t(std::ceil(f.largestRate));
         work_.maxRate = std::max(work_.maxRate, work_.faceRates.back());
-        const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount())});
+        const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount)});
         const auto firstVertex = std::uint32_t(work_.vertexCount);
-        const std::uint64_t atEdges = triangles - cellTriangles(f);
+        const auto sides = std::uint32_t(model_.sideCount);
+        const uvec2 lattice = formulas::latticeSegments(sides, f.sides[0], f.sides[1], f.sides[2], f.sides[3]);
+        // A face of one segment per side has no lattice: all its triangles are at edges.
+        const std::uint64_t cells = std::max(f.u, f.v) == 1 ? 0 : formulas::cellTriangles(sides, lattice);
+        const std::uint64_t atEdges = triangles - cells;
         const auto addTiles = [&](std::vector<TriangleTile>& tiles, std::uint64_t first, std::uint64_t end) {
             for (; first < end; first += kTrianglesPerTile)
                 tiles.push_back({face, std::uint32_t(first), std::uint32_t(work_.triangleCount + first), firstVertex});
@@ -80,16 +84,10 @@ private:
         work_.triangleCount += triangles;
         if (std::max(f.u, f.v) == 1) return;
         if (model_.isTriangles())
-            addTriangleInside(face, std::max(f.u, 3u));
+            addTriangleInside(face, formulas::atLeastInner(3, f.u));
         else
             addQuadInside(face, f);
         work_.sampleCount += work_.vertexCount - firstVertex;
-    }
-
-    /// The triangles of a face that touch no edge.
-    [[nodiscard]] std::uint64_t cellTriangles(const FaceSegments& f) const {
-        const std::uint64_t m = std::max(f.u, 2u) - 2, n = std::max(f.v, 2u) - 2, inner = std::max(f.u, 3u) - 3;
-        return model_.isTriangles() ? inner * inner : 2 * m * n;
     }
 
     void addTriangleInside(std::uint32_t face, std::uint32_t n) {
@@ -101,8 +99,8 @@ private:
     }
 
     void addQuadInside(std::uint32_t face, const FaceSegments& f) {
-        const std::uint32_t m = std::max(f.u, 2u), n = std::max(f.v, 2u);
-        for (const TreeLeaf& leaf : leavesOf(model_.tree(), model_.faces()[face].root)) {
+        const std::uint32_t m = formulas::atLeastInner(4, f.u), n = formulas::atLeastInner(4, f.v);
+        for (const TreeLeaf& leaf : leavesOf(model_.tree, model_.faces[face].root)) {
             // Fractional samples are not at i/m: which leaf they fall in is found by looking.
             const std::uint32_t i0 = firstSample(leaf.u, leaf.depth, m, f.rateU),
                                 i1 = firstSample(leaf.u + 1, leaf.depth, m, f.rateU);
@@ -119,7 +117,7 @@ private:
     }
 
     [[nodiscard]] bool isRegular(const InsideTile& tile) const {
-        return !model_.isTriangles() && model_.isRegular(tile.patchIndex);
+        return !model_.isTriangles() && model_.patchIsRegular[tile.patchIndex];
     }
 
     /// The first inner sample at or past cell / 2^depth, at most n.
@@ -132,7 +130,7 @@ private:
         return i;
     }
 
-    const Model& model_;
+    const SurfaceModel& model_;
     const DiceTable& table_;
     const EdgeRates& rates_;
     Work work_;
@@ -152,26 +150,34 @@ void checkMemory(const Device& device, std::uint64_t bytes, const Work& work, st
 } // namespace
 
 struct Dicer::Parts {
-    explicit Parts(Device& device) : device(device), inputs(device), stages(device), timer(device, 2) {}
+    explicit Parts(Device& device) : device(device), resources(device), stages(device), timer(device, 2) {}
 
-    const DiceTable& tableOf(const Model& model) {
+    const DiceTable& tableOf(const SurfaceModel& model) {
         return tables.of(model, [&] { return makeDiceTable(device, model); });
     }
     /// Makes the buffers of the mesh and writes them.
-    DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options);
+    DicedMesh dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options);
 
+    /// The workgroups of one shader, in as many dispatches as they need.
     struct Pass {
         const char* file;
         std::uint64_t groups;
-        PushConstants constants;
-        bool isCommon = false;
+        DicePush push;
+        bool isCommon = false; ///< kIsCommon of shaders/dice.glsl
         const Pipeline* pipeline = nullptr;
     };
-    /// Returns the milliseconds that they take.
-    double run(std::span<const Pass> passes, const BindingSet& set, const Scene& scene);
+    /// Passes that make vertices, and those that make triangles of them.
+    struct Passes {
+        std::vector<Pass> vertices, triangles;
+    };
+    Passes passesOf(const Work& work, const DiceTable& table, std::uint32_t firstRing, std::uint32_t firstCell) const;
+    /// Compiles the shaders of passes that have work to do.
+    void compile(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants);
+    /// Returns the milliseconds that the passes take.
+    double runPasses(std::span<const Pass> passes, const BindingSet& set, const PassInputs& inputs);
 
     Device& device;
-    GeometryInputs inputs;
+    PassResources resources;
     ComputeStages stages;
     Timer timer;
     PerModel<DiceTable> tables;
@@ -180,21 +186,22 @@ struct Dicer::Parts {
 Dicer::Dicer(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 Dicer::~Dicer() = default;
 
-DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
-    const DiceTable& table = tableOf(model);
-    const Work work = WorkBuilder(model, table, rates).build();
-    const std::uint64_t vertexBytes = kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0);
-    const std::uint64_t bytes = work.vertexCount * vertexBytes + work.triangleCount * 12;
-    checkMemory(device, bytes, work, options.memory);
+namespace {
 
-    DicedMesh mesh;
+std::uint64_t byteCountOf(const Work& work, bool hasTexCoords) {
+    return work.vertexCount * (kVertexBytes + (hasTexCoords ? sizeof(vec2) : 0)) + work.triangleCount * 12;
+}
+
+/// The buffers of a mesh, not written yet, and what is known of it beforehand.
+DicedMesh allocateMesh(Device& device, const Work& work, bool hasTexCoords) {
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    DicedMesh mesh;
     mesh.vertices =
         makeTexels(device, {.name = "diced vertices", .bytes = work.vertexCount * kVertexBytes, .usage = usage},
                    VK_FORMAT_R32G32B32A32_SFLOAT);
     mesh.texCoords = makeTexels(device,
                                 {.name = "diced texture coordinates",
-                                 .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
+                                 .bytes = hasTexCoords ? work.vertexCount * sizeof(vec2) : 0,
                                  .usage = usage},
                                 VK_FORMAT_R32G32_SFLOAT);
     mesh.indices = makeBuffer(
@@ -207,74 +214,98 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     mesh.vertexCount = std::uint32_t(work.vertexCount);
     mesh.triangleCount = std::uint32_t(work.triangleCount);
     mesh.maxRate = work.maxRate;
-    mesh.byteCount = bytes;
-    mesh.hasTexCoords = options.wantsTexCoords;
+    mesh.byteCount = byteCountOf(work, hasTexCoords);
+    mesh.hasTexCoords = hasTexCoords;
+    return mesh;
+}
 
+} // namespace
+
+Dicer::Parts::Passes Dicer::Parts::passesOf(const Work& work, const DiceTable& table, std::uint32_t firstRing,
+                                            std::uint32_t firstCell) const {
+    const std::uint32_t edgeVertices = work.runFirsts[table.firstSmoothRun], group = device.traits().smallGroup;
+    const auto regularCount = std::uint32_t(work.regularCount);
+    return {{{"dice_insides.comp", regularCount, {}, true},
+             {"dice_insides.comp", work.insides.size() - regularCount, {.first = regularCount}},
+             {"dice_edges.comp", (edgeVertices + group - 1) / group, {.count = edgeVertices}},
+             {"dice_smooth_edges.comp", table.runs.size() - table.firstSmoothRun, {.first = table.firstSmoothRun}}},
+            {{"dice_triangles.comp", work.cells.size(), {.first = firstCell}, true},
+             {"dice_triangles.comp", work.rings.size(), {.first = firstRing}}}};
+}
+
+void Dicer::Parts::compile(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants) {
+    for (Pass& pass : passes) {
+        if (pass.groups == 0) continue;
+        constants.isCommon = pass.isCommon;
+        pass.pipeline = &stages.pipeline(pass.file, model, constants);
+    }
+}
+
+DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options) {
+    // What there is to do, and whether the memory allowed holds it.
+    const DiceTable& table = tableOf(model);
+    const Work work = WorkBuilder(model, table, rates).build();
+    checkMemory(device, byteCountOf(work, options.wantsTexCoords), work, options.memory);
+    DicedMesh mesh = allocateMesh(device, work, options.wantsTexCoords);
+
+    // What the shaders read.
     std::vector<std::uint32_t> tiles;
     appendRecords<kInsideTileTexels>(tiles, work.insides);
     const std::uint32_t firstRing = appendRecords<kTriangleTileTexels>(tiles, work.rings);
     const std::uint32_t firstCell = appendRecords<kTriangleTileTexels>(tiles, work.cells);
-    const RateTexels rateTexels = uploadRates(device, model, rates);
-    const TexelBuffer tileTexels =
+    const RateTables rateTables = uploadRates(device, model, rates);
+    const TexelBuffer tileTable =
         uploadTexels(device, {.name = "dice tiles"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(tiles)));
     const TexelBuffer firsts = uploadWords(device, "dice firsts", work.runFirsts);
+    PassInputs inputs{};
+    PassBindings bindings = resources.bindings();
+    describe(model, inputs, bindings);
+    describeRates(model, rates, rateTables, inputs, bindings);
+    bindTable(bindings[kBindDiceTable], table.texels);
+    bindTable(bindings[kBindDiceTiles], tileTable);
+    bindTable(bindings[kBindDiceFirsts], firsts);
+    inputs.model.firstFaceRuns = table.firstFaceRuns;
+    inputs.model.cornerRunCount = table.cornerRunCount;
+    inputs.model.runCount = std::uint32_t(table.runs.size());
 
-    Scene scene{};
-    Binding bindings[kBindDepths];
-    inputs.fill(model, scene, bindings);
-    useRates(model, rates, rateTexels, scene, bindings);
-    bindings[kBindDiceTable].texels = table.texels.view.get();
-    bindings[kBindDiceTiles].texels = tileTexels.view.get();
-    bindings[kBindDiceFirsts].texels = firsts.view.get();
-    scene.dicedVertices = mesh.vertices.buffer.address;
-    scene.dicedTexCoords = mesh.texCoords.buffer.address;
-    scene.dicedIndices = mesh.indices.address;
-    scene.firstFaceRuns = table.firstFaceRuns;
-    scene.cornerRunCount = table.cornerRunCount;
-    scene.runCount = std::uint32_t(table.runs.size());
+    // What they write.
+    inputs.targets.dicedVertices = mesh.vertices.buffer.address;
+    inputs.targets.dicedTexCoords = mesh.texCoords.buffer.address;
+    inputs.targets.dicedIndices = mesh.indices.address;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
-    const std::uint32_t edgeVertices = work.runFirsts[table.firstSmoothRun];
-    const auto regularCount = std::uint32_t(work.regularCount);
-    Pass passes[] = {
-        {"dice_insides.comp", regularCount, {}, true},
-        {"dice_insides.comp", work.insides.size() - regularCount, {.passFirst = regularCount}},
-        {"dice_edges.comp",
-         (edgeVertices + constants.groupSize - 1) / constants.groupSize,
-         {.passNumber = edgeVertices}},
-        {"dice_smooth_edges.comp", table.runs.size() - table.firstSmoothRun, {.passFirst = table.firstSmoothRun}},
-        {"dice_triangles.comp", work.cells.size(), {.passFirst = firstCell}, true},
-        {"dice_triangles.comp", work.rings.size(), {.passFirst = firstRing}}};
-    for (Pass& pass : passes) {
-        if (pass.groups == 0) continue; // what is not needed is not compiled
-        constants.isCommon = pass.isCommon;
-        pass.pipeline = &stages.pipeline(pass.file, model, constants);
+    Passes passes = passesOf(work, table, firstRing, firstCell);
+    compile(passes.vertices, model, constants);
+    compile(passes.triangles, model, constants);
+    const BindingSet set = makeBindingSet(device, *passes.triangles.back().pipeline, passLayout(device), bindings);
+
+    // Vertices and triangles do not wait for each other, unless their times are asked for apart.
+    if (options.timesVertices) {
+        mesh.vertexMilliseconds = runPasses(passes.vertices, set, inputs);
+        mesh.milliseconds = mesh.vertexMilliseconds + runPasses(passes.triangles, set, inputs);
+    } else {
+        std::vector<Pass> all = passes.vertices;
+        all.insert(all.end(), passes.triangles.begin(), passes.triangles.end());
+        mesh.milliseconds = runPasses(all, set, inputs);
     }
-    const std::span<const Pass> all(passes);
-    const BindingSet set = makeBindingSet(device, *all.back().pipeline, GeometryInputs::layout(), bindings);
-    const std::size_t together = all.size() - (options.timesVertices ? 2 : 0);
-    mesh.milliseconds = run(all.first(together), set, scene);
-    if (!options.timesVertices) return mesh;
-    mesh.vertexMilliseconds = mesh.milliseconds;
-    mesh.milliseconds += run(all.subspan(together), set, scene);
     return mesh;
 }
 
-double Dicer::Parts::run(std::span<const Pass> passes, const BindingSet& set, const Scene& scene) {
+double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& set, const PassInputs& inputs) {
     const auto start = std::chrono::steady_clock::now();
     device.run([&](VkCommandBuffer commands) {
         timer.reset(commands);
-        writeScene(commands, inputs.scene(), scene);
+        resources.write(commands, inputs);
         timer.stamp(commands);
         for (const Pass& pass : passes) {
             if (pass.groups == 0) continue;
             bind(commands, *pass.pipeline, set);
             for (std::uint64_t first = 0; first < pass.groups; first += kGroupsAtOnce) {
-                PushConstants part = pass.constants;
-                part.passFirst += std::uint32_t(first);
+                DicePush part = pass.push;
+                part.first += std::uint32_t(first);
                 pushConstants(commands, *pass.pipeline, part);
                 vkCmdDispatch(commands, std::uint32_t(std::min<std::uint64_t>(kGroupsAtOnce, pass.groups - first)), 1,
                               1);
@@ -291,7 +322,7 @@ double Dicer::Parts::run(std::span<const Pass> passes, const BindingSet& set, co
     return times.empty() ? 0 : times[0];
 }
 
-DicedMesh Dicer::dice(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+DicedMesh Dicer::dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options) {
     return parts_->dice(model, rates, options);
 }
 
@@ -313,7 +344,7 @@ DenseMesh readBack(Device& device, const DicedMesh& diced) {
     return mesh;
 }
 
-DenseMesh Dicer::diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options) {
+DenseMesh Dicer::diceToHost(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options) {
     return readBack(parts_->device, dice(model, rates, options));
 }
 

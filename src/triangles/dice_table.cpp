@@ -11,15 +11,15 @@ constexpr std::uint32_t kSlots = 8;
 
 class TableBuilder {
 public:
-    explicit TableBuilder(const Model& model)
-        : model_(model), incidences_(edgeIncidences(model.faces(), model.sideCount(), model.edges().size())),
-          parents_(model.faces().size() * kSlots) {
+    explicit TableBuilder(const SurfaceModel& model)
+        : model_(model), incidences_(edgeIncidences(model.faces, model.sideCount, model.edges.size())),
+          parents_(model.faces.size() * kSlots) {
         std::iota(parents_.begin(), parents_.end(), 0);
     }
 
     DiceTable build() {
         joinCorners();
-        table_.faceRuns.resize(model_.faces().size());
+        table_.faceRuns.resize(model_.faces.size());
         addCornerRuns();
         addEdgeRuns();
         return std::move(table_);
@@ -28,17 +28,17 @@ public:
 private:
     /// True when faces along the edge need vertices of their own.
     [[nodiscard]] bool isParted(std::uint32_t edge) const {
-        const Edge& e = model_.edges()[edge];
+        const Edge& e = model_.edges[edge];
         return incidences_.of(edge).size() > 1 && (e.incidenceCount > 0 || (e.flags & kOnSeam) != 0);
     }
 
     /// 1 for the second edge of a split side.
     [[nodiscard]] std::uint32_t halfOf(const Incidence& incidence, std::uint32_t edge) const {
-        return edge - (model_.faces()[incidence.face].sides[incidence.side] & kSideEdgeMask);
+        return edge - (model_.faces[incidence.face].sides[incidence.side] & kSideEdgeMask);
     }
 
     [[nodiscard]] std::uint32_t slotAt(const Incidence& incidence, float x) const {
-        const auto sides = std::uint32_t(model_.sideCount());
+        const auto sides = std::uint32_t(model_.sideCount);
         return incidence.face * kSlots + (x == 0   ? incidence.side
                                           : x == 1 ? (incidence.side + 1) % sides
                                                    : 4 + incidence.side);
@@ -50,7 +50,7 @@ private:
     }
 
     void joinCorners() {
-        for (std::uint32_t edge = 0; edge < model_.edges().size(); ++edge) {
+        for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge) {
             if (isParted(edge)) continue;
             for (const Incidence& incidence : incidences_.of(edge))
                 for (const bool atEnd : {false, true}) {
@@ -62,7 +62,7 @@ private:
 
     void addCornerRuns() {
         std::vector<std::uint32_t> runOfRoot(parents_.size(), kNoPatch);
-        for (std::uint32_t edge = 0; edge < model_.edges().size(); ++edge)
+        for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge)
             for (const Incidence& incidence : incidences_.of(edge))
                 for (const bool atEnd : {false, true}) {
                     const float x = atEnd ? incidence.end : incidence.start;
@@ -71,7 +71,7 @@ private:
                     if (run == kNoPatch) {
                         run = std::uint32_t(table_.runs.size());
                         table_.runs.push_back(
-                            {{incidence.face, incidence.side, x, x}, model_.edges()[edge].corners[atEnd ? 1 : 0], 1});
+                            {{incidence.face, incidence.side, x, x}, model_.edges[edge].corners[atEnd ? 1 : 0], 1});
                     }
                     FaceRuns& runs = table_.faceRuns[incidence.face];
                     const std::uint32_t place = slot % kSlots;
@@ -81,21 +81,21 @@ private:
     }
 
     void addEdgeRuns() {
-        for (std::uint32_t edge = 0; edge < model_.edges().size(); ++edge)
+        for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge)
             if (!isSmooth(edge)) addRunsOf(edge);
         table_.firstSmoothRun = std::uint32_t(table_.runs.size());
-        for (std::uint32_t edge = 0; edge < model_.edges().size(); ++edge)
+        for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge)
             if (isSmooth(edge)) addRunsOf(edge);
     }
 
     /// One run of vertices, all in one patch of the owner, which alone decides where they lie.
     [[nodiscard]] bool isSmooth(std::uint32_t edge) const {
-        const Edge& record = model_.edges()[edge];
+        const Edge& record = model_.edges[edge];
         if (model_.isTriangles() || record.incidenceCount > 0 || incidences_.of(edge).empty() || isParted(edge))
             return false;
-        const std::uint32_t root = model_.faces()[record.owner.face].root;
+        const std::uint32_t root = model_.faces[record.owner.face].root;
         return incidences_.of(edge).front().face == record.owner.face && root != kNoPatch && (root & kLeafBit) != 0 &&
-               model_.isRegular(root & ~kLeafBit);
+               model_.patchIsRegular[root & ~kLeafBit];
     }
 
     void addRunsOf(std::uint32_t edge) {
@@ -107,7 +107,7 @@ private:
         }
     }
 
-    const Model& model_;
+    const SurfaceModel& model_;
     EdgeIncidences incidences_;
     std::vector<std::uint32_t> parents_; ///< of slots that share a vertex (union-find)
     DiceTable table_;
@@ -115,7 +115,7 @@ private:
 
 } // namespace
 
-DiceTable makeDiceTable(Device& device, const Model& model) {
+DiceTable makeDiceTable(Device& device, const SurfaceModel& model) {
     DiceTable table = TableBuilder(model).build();
     std::vector<std::uint32_t> words;
     appendRecords<kRunTexels>(words, table.runs);
@@ -125,12 +125,11 @@ DiceTable makeDiceTable(Device& device, const Model& model) {
     return table;
 }
 
-std::vector<char> boundaryVertices(const DiceTable& table, const Model& model, const DicedMesh& mesh) {
+std::vector<char> boundaryVertices(const DiceTable& table, const SurfaceModel& model, const DicedMesh& mesh) {
     std::vector<char> isOnBoundary(mesh.vertexCount, 0);
     for (std::size_t i = 0; i < table.runs.size(); ++i) {
         const VertexRun& run = table.runs[i];
-        const std::uint32_t flags =
-            run.isCorner != 0 ? model.cornerFlags()[run.element] : model.edges()[run.element].flags;
+        const std::uint32_t flags = run.isCorner != 0 ? model.cornerFlags[run.element] : model.edges[run.element].flags;
         if ((flags & kOnBoundary) == 0) continue;
         for (std::uint32_t v = mesh.runFirsts[i]; v < mesh.runFirsts[i + 1]; ++v) isOnBoundary[v] = 1;
     }

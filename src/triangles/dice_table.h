@@ -16,9 +16,9 @@ struct DiceTable {
 };
 
 /// Vertices of an edge or corner are repeated where its faces' normals or texture coordinates part.
-DiceTable makeDiceTable(Device& device, const Model& model);
+DiceTable makeDiceTable(Device& device, const SurfaceModel& model);
 
 /// One a vertex of a diced mesh: whether it lies on an edge of the cage that has one drawn face.
-std::vector<char> boundaryVertices(const DiceTable& table, const Model& model, const DicedMesh& mesh);
+std::vector<char> boundaryVertices(const DiceTable& table, const SurfaceModel& model, const DicedMesh& mesh);
 
 } // namespace relief

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "model/bounds.h"
+#include "shared/dice.h"
 #include "triangles/stages.h"
 
 namespace relief {
@@ -18,8 +19,8 @@ std::uint64_t insideTriangle(std::uint64_t n) {
 }
 
 /// Corners and samples along edges, each once whatever faces share them.
-std::uint64_t sharedVertices(const Model& model, const EdgeRates& rates) {
-    std::uint64_t count = model.cornerCount();
+std::uint64_t sharedVertices(const SurfaceModel& model, const EdgeRates& rates) {
+    std::uint64_t count = model.cornerFlags.size();
     for (std::uint32_t edge = 0; edge < rates.rates.size(); ++edge) count += rates.segments(edge) - 1;
     return count;
 }
@@ -31,10 +32,10 @@ std::uint64_t sumOf(std::span<const std::uint32_t> numbers) {
 }
 
 /// Drawn faces that are visible, or those that are not.
-std::vector<std::uint32_t> facesOf(const Model& model, std::span<const char> isVisible, bool isHidden) {
+std::vector<std::uint32_t> facesOf(const SurfaceModel& model, std::span<const char> isVisible, bool isHidden) {
     std::vector<std::uint32_t> faces;
-    for (std::uint32_t f = 0; f < model.faces().size(); ++f)
-        if (model.faces()[f].root != kNoPatch && isHidden == (!isVisible.empty() && isVisible[f] == 0))
+    for (std::uint32_t f = 0; f < model.faces.size(); ++f)
+        if (model.faces[f].root != kNoPatch && isHidden == (!isVisible.empty() && isVisible[f] == 0))
             faces.push_back(f);
     return faces;
 }
@@ -78,42 +79,39 @@ bool facesAway(const Bounds& box, const NormalBounds& normals, const dvec3& eye)
 
 } // namespace
 
-std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
-    const std::uint64_t sum = sumOf(r);
-    if (sum == r.size()) return r.size() - 2;
-    if (r.size() == 3) {
-        const std::uint64_t n = std::max({r[0], r[1], r[2]});
-        return sum + 3 * (n - 2) + evenTriangle(n - 2);
-    }
-    // An outer ring that joins each side to an inner grid two segments smaller. An inner level of 1 beside others
-    // counts 2.
-    const std::uint64_t m = std::max({r[0], r[2], 2u}), n = std::max({r[1], r[3], 2u});
-    return sum + 2 * (m - 2) + 2 * (n - 2) + 2 * (m - 2) * (n - 2);
-}
-
 std::uint64_t dicedTriangles(std::span<const std::uint32_t> r) {
-    if (r.size() == 4 || sumOf(r) == 3) return tessellatedTriangles(r);
-    const std::uint64_t inner = std::max({r[0], r[1], r[2], 3u}) - 3; // segments a side of the inner lattice
-    return sumOf(r) + 3 * inner + inner * inner;
+    const auto sideCount = std::uint32_t(r.size());
+    const std::uint64_t sum = sumOf(r);
+    if (sum == sideCount) return sideCount - 2;
+    const uvec2 n = formulas::latticeSegments(sideCount, r[0], r[1], r[2], sideCount == 4 ? r[3] : 0);
+    return formulas::ringTriangles(sideCount, std::uint32_t(sum), n) + formulas::cellTriangles(sideCount, n);
 }
 
-std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip, const View& view) {
+std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
+    // Quads of the fixed-function tessellator have the rings and cells of diced ones.
+    const std::uint64_t sum = sumOf(r);
+    if (r.size() == 4 || sum == 3) return dicedTriangles(r);
+    const std::uint64_t n = std::max({r[0], r[1], r[2]});
+    return sum + 3 * (n - 2) + evenTriangle(n - 2);
+}
+
+std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view) {
     // Where the near plane cuts the object open, and from within, insides are seen.
     const bool seesOutside =
-        !model.normalBounds().empty() &&
-        std::ranges::none_of(model.faceBounds(), [&](const Bounds& box) { return isCut(box, worldToClip); });
+        !model.normalBounds.empty() &&
+        std::ranges::none_of(model.faceBounds, [&](const Bounds& box) { return isCut(box, worldToClip); });
     std::vector<char> isVisible;
-    isVisible.reserve(model.faceBounds().size());
-    for (std::size_t face = 0; face < model.faceBounds().size(); ++face) {
-        const Bounds& box = model.faceBounds()[face];
+    isVisible.reserve(model.faceBounds.size());
+    for (std::size_t face = 0; face < model.faceBounds.size(); ++face) {
+        const Bounds& box = model.faceBounds[face];
         const bool isHidden = box.isEmpty() || isOutside(box, worldToClip) ||
-                              (seesOutside && facesAway(box, model.normalBounds()[face], dvec3(view.eye)));
+                              (seesOutside && facesAway(box, model.normalBounds[face], dvec3(view.eye)));
         isVisible.push_back(isHidden ? 0 : 1);
     }
     return isVisible;
 }
 
-DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw,
+DrawPlan planPatches(const SurfaceModel& model, const EdgeRates& rates, std::uint32_t verticesPerDraw,
                      std::span<const char> isVisible) {
     DrawPlan plan;
     plan.vertexCount = sharedVertices(model, rates);
@@ -130,11 +128,12 @@ DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t v
             vertices += more;
             ++plan.batches.back().faceCount;
             plan.faces.push_back(f);
-            plan.triangleCount += tessellatedTriangles({face.sides, std::size_t(model.sideCount())});
+            plan.triangleCount += tessellatedTriangles({face.sides, std::size_t(model.sideCount)});
             if (model.isTriangles())
                 plan.vertexCount += insideTriangle(largest);
             else if (largest > 1)
-                plan.vertexCount += std::uint64_t(std::max(face.u, 2u) - 1) * (std::max(face.v, 2u) - 1);
+                plan.vertexCount +=
+                    std::uint64_t(formulas::atLeastInner(4, face.u) - 1) * (formulas::atLeastInner(4, face.v) - 1);
             plan.maxRate = std::max(plan.maxRate, std::uint32_t(std::ceil(face.largestRate)));
         }
         if (hidden == 0) plan.visibleBatchCount = plan.batches.size(), plan.visibleFaceCount = plan.faces.size();
@@ -142,7 +141,7 @@ DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t v
     return plan;
 }
 
-DrawPlan planGrids(const Model& model, const EdgeRates& rates, std::span<const char> isVisible) {
+DrawPlan planGrids(const SurfaceModel& model, const EdgeRates& rates, std::span<const char> isVisible) {
     DrawPlan plan;
     plan.vertexCount = sharedVertices(model, rates);
     for (const std::uint32_t hidden : {0u, 1u}) {
@@ -166,12 +165,12 @@ DrawPlan planGrids(const Model& model, const EdgeRates& rates, std::span<const c
     return plan;
 }
 
-std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates) {
+std::uint64_t plannedTriangles(const SurfaceModel& model, Path path, const EdgeRates& rates) {
     std::uint64_t count = 0;
-    for (std::uint32_t f = 0; f < model.faces().size(); ++f) {
-        if (model.faces()[f].root == kNoPatch) continue;
+    for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
+        if (model.faces[f].root == kNoPatch) continue;
         const FaceSegments face = faceSegments(model, rates, f);
-        const std::span<const std::uint32_t> sides(face.sides, std::size_t(model.sideCount()));
+        const std::span<const std::uint32_t> sides(face.sides, std::size_t(model.sideCount));
         count += path == Path::grid   ? std::uint64_t(face.u) * face.v * (model.isTriangles() ? 1 : 2)
                  : path == Path::dice ? dicedTriangles(sides)
                                       : tessellatedTriangles(sides);

@@ -25,10 +25,10 @@ std::uint32_t rateLimit(const DeviceTraits& traits, const TriangleOptions& optio
 }
 
 /// The corner where a side starts.
-std::uint32_t cornerOf(const Model& model, std::uint32_t sideEntry) {
+std::uint32_t cornerOf(const SurfaceModel& model, std::uint32_t sideEntry) {
     const std::uint32_t edge = sideEntry & kSideEdgeMask;
-    if ((sideEntry & kSideReversed) == 0) return model.edges()[edge].corners[0];
-    return model.edges()[edge + ((sideEntry & kSideSplit) != 0 ? 1 : 0)].corners[1];
+    if ((sideEntry & kSideReversed) == 0) return model.edges[edge].corners[0];
+    return model.edges[edge + ((sideEntry & kSideSplit) != 0 ? 1 : 0)].corners[1];
 }
 
 } // namespace
@@ -38,52 +38,52 @@ std::uint32_t EdgeRates::segments(std::uint32_t edge) const {
 }
 
 struct EdgeRater::Parts {
-    explicit Parts(Device& device) : device(device), inputs(device), stages(device), timer(device, 2) {}
+    explicit Parts(Device& device) : device(device), resources(device), stages(device), timer(device, 2) {}
     Device& device;
-    GeometryInputs inputs;
+    PassResources resources;
     ComputeStages stages;
     Timer timer;
     PerModel<std::vector<EdgeFootprint>> footprints;
 
     struct Measure {
         const char* file;
-        std::size_t words = 1;
+        std::size_t floatCount = 1;
         const TexelBuffer* edgeHeights = nullptr;
         double* milliseconds = nullptr; ///< device time, if measured
     };
-    std::vector<float> measure(const Measure& what, const Model& model, Scene scene);
-    const std::vector<EdgeFootprint>& edgeFootprints(const Model& model);
-    std::vector<EdgeFootprint> measureFootprints(const Model& model);
-    std::vector<float> measureRates(const Model& model, const TriangleOptions& options, const View& view,
+    std::vector<float> measure(const Measure& what, const SurfaceModel& model, PassInputs inputs);
+    const std::vector<EdgeFootprint>& edgeFootprints(const SurfaceModel& model);
+    std::vector<EdgeFootprint> measureFootprints(const SurfaceModel& model);
+    std::vector<float> measureRates(const SurfaceModel& model, const TriangleOptions& options, const View& view,
                                     double* milliseconds);
-    std::vector<float> cornerLevels(const Model& model, const EdgeRates& rates);
+    std::vector<float> cornerLevels(const SurfaceModel& model, const EdgeRates& rates);
 };
 
 EdgeRater::EdgeRater(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 EdgeRater::~EdgeRater() = default;
 
-/// So many numbers an edge, as a shader leaves them in edgeTarget.
-std::vector<float> EdgeRater::Parts::measure(const Measure& what, const Model& model, Scene scene) {
-    std::vector<float> numbers(model.edges().size() * what.words);
+/// Runs a shader with one invocation per edge, which writes `floatCount` numbers to inputs.targets.edges. Returns them,
+/// edge after edge.
+std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceModel& model, PassInputs inputs) {
+    std::vector<float> numbers(model.edges.size() * what.floatCount);
     const Buffer out =
         makeBuffer(device, {.name = what.file,
                             .bytes = numbers.size() * sizeof(float),
                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-    Binding bindings[kBindDepths];
-    inputs.fill(model, scene, bindings);
-    scene.edgeTarget = out.address;
-    if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights].texels = what.edgeHeights->view.get();
+    PassBindings bindings = resources.bindings();
+    describe(model, inputs, bindings);
+    inputs.targets.edges = out.address;
+    if (what.edgeHeights != nullptr) bindTable(bindings[kBindEdgeHeights], *what.edgeHeights);
     ShaderConstants constants = constantsOf(model, NormalKind::limit);
-    constants.wantsTexCoords = what.words > 1;
+    constants.wantsTexCoords = what.floatCount > 1;
     const Pipeline& pipeline = stages.pipeline(what.file, model, constants);
-    const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
+    const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
     device.run([&](VkCommandBuffer commands) {
         timer.reset(commands);
-        writeScene(commands, inputs.scene(), scene);
+        resources.write(commands, inputs);
         timer.stamp(commands);
         bind(commands, pipeline, set);
-        pushConstants(commands, pipeline, {});
-        vkCmdDispatch(commands, std::uint32_t((model.edges().size() + 63) / 64), 1, 1);
+        vkCmdDispatch(commands, std::uint32_t((model.edges.size() + 63) / 64), 1, 1);
         timer.stamp(commands);
     });
     const std::vector<double> times = timer.intervals();
@@ -93,75 +93,83 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const Model& m
 }
 
 /// Measured once for a model.
-const std::vector<EdgeFootprint>& EdgeRater::Parts::edgeFootprints(const Model& model) {
+const std::vector<EdgeFootprint>& EdgeRater::Parts::edgeFootprints(const SurfaceModel& model) {
     return footprints.of(model, [&] { return measureFootprints(model); });
 }
 
-std::vector<EdgeFootprint> EdgeRater::Parts::measureFootprints(const Model& model) {
+std::vector<EdgeFootprint> EdgeRater::Parts::measureFootprints(const SurfaceModel& model) {
     std::vector<EdgeFootprint> edges;
-    if (!model.hasHeight()) return edges;
-    const std::vector<float> words = measure({.file = "footprints.comp", .words = kFootprintFloats}, model, {});
+    if (!model.height) return edges;
+    const std::vector<float> words = measure({.file = "footprints.comp", .floatCount = kFootprintFloats}, model, {});
     for (std::size_t i = 0; i < words.size(); i += kFootprintFloats) {
         const Range range =
-            model.heightPyramid().range(vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4]));
+            model.heightPyramid.range(vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4]));
         edges.push_back({words[i], range.highest - range.lowest});
     }
     return edges;
 }
 
-std::vector<float> EdgeRater::Parts::measureRates(const Model& model, const TriangleOptions& options, const View& view,
-                                                  double* milliseconds) {
-    Scene scene{};
-    scene.eye = view.eye;
-    scene.nearDistance = view.nearDistance;
-    scene.pixelsAtUnitDistance = view.pixelsAtUnitDistance;
-    scene.edgePixels = float(options.edgePixels);
-    scene.maxRate = rateLimit(device.traits(), options);
-    scene.isFractional = options.spacing == Spacing::fractional ? 1 : 0;
-    std::vector<float> ranges(model.edges().size(), 0);
+std::vector<float> EdgeRater::Parts::measureRates(const SurfaceModel& model, const TriangleOptions& options,
+                                                  const View& view, double* milliseconds) {
+    PassInputs inputs{};
+    inputs.view.eye = view.eye;
+    inputs.rates.nearDistance = view.nearDistance;
+    inputs.rates.pixelsAtUnitDistance = view.pixelsAtUnitDistance;
+    inputs.rates.edgePixels = float(options.edgePixels);
+    inputs.rates.maxRate = rateLimit(device.traits(), options);
+    inputs.rates.isFractional = options.spacing == Spacing::fractional ? 1 : 0;
+    std::vector<float> ranges(model.edges.size(), 0);
     const std::vector<EdgeFootprint>& edges = edgeFootprints(model);
     for (std::size_t i = 0; i < edges.size(); ++i) ranges[i] = edges[i].heightRange;
     const TexelBuffer heights =
         uploadTexels(device, {.name = "edge heights"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(ranges)));
-    return measure({.file = "rates.comp", .edgeHeights = &heights, .milliseconds = milliseconds}, model, scene);
+    return measure({.file = "rates.comp", .edgeHeights = &heights, .milliseconds = milliseconds}, model, inputs);
 }
 
-/// At each corner the mean over its edges of the level whose texels are as long as their segments.
-std::vector<float> EdgeRater::Parts::cornerLevels(const Model& model, const EdgeRates& rates) {
-    if (!model.hasHeight()) return {};
+/// Mip level per corner: the mean, over the edges that meet there, of log2(texels per segment), at least 0. Empty where
+/// all are 0.
+std::vector<float> EdgeRater::Parts::cornerLevels(const SurfaceModel& model, const EdgeRates& rates) {
+    if (!model.height) return {};
     const std::vector<EdgeFootprint>& edges = edgeFootprints(model);
-    std::vector<float> levels(model.cornerCount(), 0), counts(model.cornerCount(), 0);
+    std::vector<float> levels(model.cornerFlags.size(), 0), counts(model.cornerFlags.size(), 0);
     bool isAny = false;
     for (std::size_t edge = 0; edge < edges.size(); ++edge) {
         const float perSegment = edges[edge].texels / rates.rates[edge];
         const float level = perSegment > 1 ? std::log2(perSegment) : 0; // NaN compares false
         isAny = isAny || level > 0;
-        for (const std::uint32_t corner : model.edges()[edge].corners) levels[corner] += level, ++counts[corner];
+        for (const std::uint32_t corner : model.edges[edge].corners) levels[corner] += level, ++counts[corner];
     }
     if (!isAny) return {};
     for (std::size_t corner = 0; corner < levels.size(); ++corner) levels[corner] /= std::max(counts[corner], 1.0f);
     return levels;
 }
 
-EdgeRates EdgeRater::rates(const Model& model, const TriangleOptions& options, const View& view, double* milliseconds) {
+EdgeRates EdgeRater::rates(const SurfaceModel& model, const TriangleOptions& options, const View& view,
+                           double* milliseconds) {
     const std::uint32_t limit = rateLimit(parts_->device.traits(), options);
     if (options.rate && (*options.rate < 1 || std::uint32_t(*options.rate) > limit))
         fail(Failure::usage, "--rate {} is not in 1..{}{}", *options.rate, limit,
              limit == kRateLimit ? "" : ", what the tessellator of this device does; --path grid and dice go to 1024");
     EdgeRates rates{{}, options.spacing, {}};
-    rates.rates = options.rate ? model.uniformRates(float(*options.rate))
+    rates.rates = options.rate ? uniformRates(model, float(*options.rate))
                                : parts_->measureRates(model, options, view, milliseconds);
     if (options.filtersHeights) rates.cornerLevels = parts_->cornerLevels(model, rates);
     return rates;
 }
 
-RateTexels uploadRates(Device& device, const Model& model, const EdgeRates& rates) {
+std::vector<float> uniformRates(const SurfaceModel& model, float rate) {
+    std::vector<float> rates(model.edges.size());
+    for (std::size_t e = 0; e < rates.size(); ++e) rates[e] = model.edgeIsHalf[e] ? std::ceil(rate / 2) : rate;
+    return rates;
+}
+
+RateTables uploadRates(Device& device, const SurfaceModel& model, const EdgeRates& rates) {
     std::vector<vec4> levels;
     if (rates.hasMips()) {
         for (const float level : rates.cornerLevels) levels.emplace_back(level, 0, 0, 0);
-        for (const Face& face : model.faces()) {
+        for (const Face& face : model.faces) {
             vec4& four = levels.emplace_back(0);
-            for (int side = 0; side < model.sideCount() && face.root != kNoPatch; ++side)
+            for (int side = 0; side < model.sideCount && face.root != kNoPatch; ++side)
                 four[side] = rates.cornerLevels[cornerOf(model, face.sides[side])];
         }
     }
@@ -170,18 +178,18 @@ RateTexels uploadRates(Device& device, const Model& model, const EdgeRates& rate
                          std::as_bytes(std::span(levels)))};
 }
 
-void useRates(const Model& model, const EdgeRates& rates, const RateTexels& texels, Scene& scene,
-              std::span<Binding> bindings) {
-    scene.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
-    scene.firstFaceLevel = std::uint32_t(model.cornerCount());
-    bindings[kBindEdgeRates].texels = texels.rates.view.get();
-    bindings[kBindLevels].texels = texels.levels.view.get();
+void describeRates(const SurfaceModel& model, const EdgeRates& rates, const RateTables& tables, PassInputs& inputs,
+                   PassBindings& bindings) {
+    inputs.rates.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
+    inputs.rates.firstFaceLevel = std::uint32_t(model.cornerFlags.size());
+    bindTable(bindings[kBindEdgeRates], tables.rates);
+    bindTable(bindings[kBindLevels], tables.levels);
 }
 
-FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint32_t face) {
+FaceSegments faceSegments(const SurfaceModel& model, const EdgeRates& rates, std::uint32_t face) {
     FaceSegments f;
-    for (int side = 0; side < model.sideCount(); ++side) {
-        const std::uint32_t entry = model.faces()[face].sides[side], edge = entry & kSideEdgeMask;
+    for (int side = 0; side < model.sideCount; ++side) {
+        const std::uint32_t entry = model.faces[face].sides[side], edge = entry & kSideEdgeMask;
         const std::uint32_t halves = (entry & kSideSplit) != 0 ? 2 : 1;
         f.sides[side] = halves * rates.segments(edge);
         const float rate = float(halves) * rates.rates[edge];
@@ -195,10 +203,10 @@ FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint3
     return f;
 }
 
-std::uint64_t boundarySegments(const Model& model, const EdgeRates& rates) {
+std::uint64_t boundarySegments(const SurfaceModel& model, const EdgeRates& rates) {
     std::uint64_t count = 0;
-    for (std::uint32_t edge = 0; edge < model.edges().size(); ++edge)
-        if ((model.edges()[edge].flags & kOnBoundary) != 0) count += rates.segments(edge);
+    for (std::uint32_t edge = 0; edge < model.edges.size(); ++edge)
+        if ((model.edges[edge].flags & kOnBoundary) != 0) count += rates.segments(edge);
     return count;
 }
 

@@ -3,11 +3,10 @@
 namespace relief {
 namespace {
 
-void checkQuery(const Model& model, const SampleQuery& query, std::size_t row) {
-    if (query.face >= model.faces().size())
-        fail(Failure::input, "point {}: face {} is not in 0..{}", row, query.face, model.faces().size() - 1);
-    if (model.faces()[query.face].root == kNoPatch)
-        fail(Failure::input, "point {}: face {} is a hole", row, query.face);
+void checkQuery(const SurfaceModel& model, const SampleQuery& query, std::size_t row) {
+    if (query.face >= model.faces.size())
+        fail(Failure::input, "point {}: face {} is not in 0..{}", row, query.face, model.faces.size() - 1);
+    if (model.faces[query.face].root == kNoPatch) fail(Failure::input, "point {}: face {} is a hole", row, query.face);
     const vec2 uv = query.uv;
     const bool isInside = uv.x >= 0 && uv.y >= 0 && (model.isTriangles() ? uv.x + uv.y <= 1 : uv.x <= 1 && uv.y <= 1);
     if (!isInside)
@@ -18,16 +17,16 @@ void checkQuery(const Model& model, const SampleQuery& query, std::size_t row) {
 } // namespace
 
 struct SurfaceSampler::Parts {
-    explicit Parts(Device& device) : device(device), inputs(device), stages(device) {}
+    explicit Parts(Device& device) : device(device), resources(device), stages(device) {}
     Device& device;
-    GeometryInputs inputs;
+    PassResources resources;
     ComputeStages stages;
 };
 
 SurfaceSampler::SurfaceSampler(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 SurfaceSampler::~SurfaceSampler() = default;
 
-std::vector<SampleResult> SurfaceSampler::sample(const Model& model, std::span<const SampleQuery> queries,
+std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std::span<const SampleQuery> queries,
                                                  const SampleOptions& options) {
     for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], options.firstRow + i);
     Device& device = parts_->device;
@@ -37,21 +36,21 @@ std::vector<SampleResult> SurfaceSampler::sample(const Model& model, std::span<c
         makeBuffer(device, {.name = "results",
                             .bytes = results.size() * sizeof(SampleResult),
                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT});
-    Scene scene{};
-    Binding bindings[kBindDepths];
-    parts_->inputs.fill(model, scene, bindings);
-    scene.sampleQueries = in.address;
-    scene.sampleResults = out.address;
+    PassInputs inputs{};
+    PassBindings bindings = parts_->resources.bindings();
+    describe(model, inputs, bindings);
+    inputs.targets.sampleQueries = in.address;
+    inputs.targets.sampleResults = out.address;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.isGenericBasis = options.isGenericBasis;
     constants.wantsTexCoords = true;
     const Pipeline& pipeline = parts_->stages.pipeline("sample.comp", model, constants);
-    const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
+    const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
     device.run([&](VkCommandBuffer commands) {
-        writeScene(commands, parts_->inputs.scene(), scene);
+        parts_->resources.write(commands, inputs);
         bind(commands, pipeline, set);
-        pushConstants(commands, pipeline, {.passNumber = std::uint32_t(queries.size())});
+        pushConstants(commands, pipeline, SamplePush{std::uint32_t(queries.size())});
         vkCmdDispatch(commands, std::uint32_t((queries.size() + 63) / 64), 1, 1);
     });
     downloadBytes(device, out, std::as_writable_bytes(std::span(results)));

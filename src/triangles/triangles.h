@@ -48,6 +48,10 @@ struct EdgeRates {
     [[nodiscard]] std::uint32_t segments(std::uint32_t edge) const;
 };
 
+/// Rates of all edges when a cage edge has `rate` segments: half of it, rounded up, for the halves of edges beside
+/// n-gons.
+std::vector<float> uniformRates(const SurfaceModel& model, float rate);
+
 /// Measures displaced edges on the device. Shaders are compiled once for a kind of model.
 class EdgeRater {
 public:
@@ -55,7 +59,7 @@ public:
     ~EdgeRater();
 
     /// Throws Failure::usage for a rate or path that the device cannot do. `milliseconds`: device time, if measured.
-    EdgeRates rates(const Model& model, const TriangleOptions& options, const View& view,
+    EdgeRates rates(const SurfaceModel& model, const TriangleOptions& options, const View& view,
                     double* milliseconds = nullptr);
 
 private:
@@ -70,13 +74,13 @@ struct FaceSegments {
     float rateU = 1, rateV = 1; ///< the larger of the two sides along u, and along v
     float largestRate = 1;
 };
-FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint32_t face);
+FaceSegments faceSegments(const SurfaceModel& model, const EdgeRates& rates, std::uint32_t face);
 
 // --- draws --------------------------------------------------------------------------------------------------------
 
 /// One a face: false where it is hidden with certainty: its box is outside what `worldToClip` shows, or all its normals
 /// point away and the near plane cuts nothing of a closed surface.
-std::vector<char> visibleFaces(const Model& model, const mat4& worldToClip, const View& view);
+std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view);
 
 /// Faces drawn together, and the calls that draw them.
 struct DrawBatch {
@@ -96,10 +100,10 @@ struct DrawPlan {
 
 /// Splits faces into draws of at most `verticesPerDraw` tessellated vertices, in order of faces; the draws of visible
 /// faces come first, and without `isVisible` all faces are.
-DrawPlan planPatches(const Model& model, const EdgeRates& rates, std::uint32_t verticesPerDraw,
+DrawPlan planPatches(const SurfaceModel& model, const EdgeRates& rates, std::uint32_t verticesPerDraw,
                      std::span<const char> isVisible = {});
 /// Groups faces by their segments along u and v.
-DrawPlan planGrids(const Model& model, const EdgeRates& rates, std::span<const char> isVisible = {});
+DrawPlan planGrids(const SurfaceModel& model, const EdgeRates& rates, std::span<const char> isVisible = {});
 /// Triangles that the fixed-function tessellator, or the dicer, makes of one patch with these side rates (3 or 4 of
 /// them).
 std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> sideRates);
@@ -137,9 +141,9 @@ public:
     ~Dicer();
 
     /// Throws Failure::device when the mesh would take more than the memory allowed, before anything is allocated.
-    DicedMesh dice(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
+    DicedMesh dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
     /// The same read back.
-    DenseMesh diceToHost(const Model& model, const EdgeRates& rates, const DiceOptions& options = {});
+    DenseMesh diceToHost(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
 
     struct Parts;
 
@@ -167,7 +171,7 @@ public:
 
     /// Tessellation: by transform feedback (Failure::usage where the device has none); grid: stored by the vertex
     /// shader; dice: read back.
-    CapturedMesh capture(const Model& model, const TriangleOptions& options, const EdgeRates& rates);
+    CapturedMesh capture(const SurfaceModel& model, const TriangleOptions& options, const EdgeRates& rates);
 
     struct Parts;
 
@@ -176,10 +180,10 @@ private:
 };
 
 /// How many triangles a Capturer has to find.
-std::uint64_t plannedTriangles(const Model& model, Path path, const EdgeRates& rates);
+std::uint64_t plannedTriangles(const SurfaceModel& model, Path path, const EdgeRates& rates);
 
 /// Segments of all edges of the cage that have one drawn face.
-std::uint64_t boundarySegments(const Model& model, const EdgeRates& rates);
+std::uint64_t boundarySegments(const SurfaceModel& model, const EdgeRates& rates);
 
 // --- single points ------------------------------------------------------------------------------------------------
 
@@ -196,7 +200,7 @@ public:
     ~SurfaceSampler();
 
     /// Throws Failure::input for a face out of range, a hole, or (u,v) outside its face.
-    std::vector<SampleResult> sample(const Model& model, std::span<const SampleQuery> queries,
+    std::vector<SampleResult> sample(const SurfaceModel& model, std::span<const SampleQuery> queries,
                                      const SampleOptions& options = {});
 
 private:

@@ -159,7 +159,7 @@ TEST(Watertight, knowsTheBoundaryOfTheCage) {
 }
 
 // At a corner of one face a triangle has two sides on the boundary and the third between two of its vertices: with a
-// hidden segment elsewhere, as where boundaries incidence, no count of edges tells that it has gone.
+// hidden segment elsewhere, as where boundaries touch, no count of edges tells that it has gone.
 TEST(Watertight, missesTrianglesThatAreNotThere) {
     CapturedMesh mesh = openGrid(3, 3);
     EXPECT_TRUE(checkWatertight(mesh, 12, 18).isWatertight());

@@ -110,7 +110,7 @@ TEST(Distance, ofOffsetCubesIsAtTheirFarCorners) {
     EXPECT_GE(d.hausdorff() + d.forth.coverage, 0.5);
     // Bottom: 1/2 everywhere. Top, in the middle of the other cube: the nearest wall or cap, by symmetry of 8 wedges
     // x <= y, x <= 1/2: 8 * integral of x^2 (1/2 - x) over 0..1/2 = 1/24. Walls: z below 1/2 is 1/2 - z away, 1/24
-    // of each of four; above they incidence.
+    // of each of four; above they touch.
     EXPECT_NEAR(d.forth.rms, std::sqrt((0.25 + 1.0 / 24 + 4.0 / 24) / 6), 1e-3);
     EXPECT_NEAR(d.back.rms, d.forth.rms, 1e-3);
 }

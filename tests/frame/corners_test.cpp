@@ -47,7 +47,7 @@ std::vector<SampleQuery> cornerQueries(const Surface& surface) {
 double worstCornerNormal(const Cage& cage, const SurfaceOptions& options) {
     const Surface surface = buildSurface(cage, options);
     const ReferenceSurface reference(cage, options);
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     const std::vector<SampleQuery> queries = cornerQueries(surface);
     const std::vector<SampleResult> results = sampler().sample(model, queries, {});
     double worst = 0;
@@ -102,8 +102,8 @@ TEST_F(StraightCorners, ofALiftedSheetAreLifted) {
     for (int k = 0; k < 8; ++k) {
         const Cage cage = turnedSquare(0.3F * float(k));
         const Surface surface = buildSurface(cage, {});
-        const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-        const EdgeRates rates{model.uniformRates(4), Spacing::equal, std::vector<float>(model.cornerCount(), 0)};
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+        const EdgeRates rates{uniformRates(model, 4), Spacing::equal, std::vector<float>(model.cornerFlags.size(), 0)};
         for (const Path path : {Path::tessellation, Path::grid, Path::dice}) {
             if (path == Path::tessellation && !device().traits().hasTessellation) continue;
             const CapturedMesh mesh = capturer().capture(model, {.path = path, .rate = 4}, rates);
@@ -118,9 +118,9 @@ std::map<double, dvec3> rimDirections(int sides, Path path) {
     const Cage cage = creasedPrism(sides);
     const Surface surface = buildSurface(cage, {.isolation = 3});
     const HeightMap map = plateau();
-    const Model flat(device(), {.surface = &surface, .cagePositions = cage.positions});
-    const Model lifted(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-    const EdgeRates rates{flat.uniformRates(16), Spacing::equal, std::vector<float>(flat.cornerCount(), 0)};
+    const SurfaceModel flat(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const SurfaceModel lifted(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const EdgeRates rates{uniformRates(flat, 16), Spacing::equal, std::vector<float>(flat.cornerFlags.size(), 0)};
     const CapturedMesh from = capturer().capture(flat, {.path = path}, rates),
                        to = capturer().capture(lifted, {.path = path}, rates);
     const auto isLower = [](const vec3& a, const vec3& b) { return a.y < b.y; };

@@ -102,7 +102,7 @@ LeafPlace leafOf(const Surface& surface, const SampleQuery& query) {
 Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis) {
     const Surface surface = buildSurface(c.cage, c.options);
     const ReferenceSurface reference(c.cage, c.options);
-    const Model model(device(), {.surface = &surface, .cagePositions = c.cage.positions, .height = &map});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = c.cage.positions, .height = &map});
     const std::vector<SampleQuery> queries = randomQueries(surface, 600);
     const std::vector<SampleResult> results = sampler().sample(model, queries, {.isGenericBasis = isGenericBasis});
     Bounds bounds;
@@ -212,10 +212,10 @@ TEST_F(MapFormats, haveTheirMipsOnTheDevice) {
     Dicer dicer(device());
     for (const MapFormat format : kMapFormats) {
         const HeightMap map = inFormat(waves(37, 22), format);
-        const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-        EXPECT_EQ(model.heightBytes(), mapBytes(format, 37, 22)) << nameOf(format);
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+        EXPECT_EQ(model.height->words.buffer.bytes, mapBytes(format, 37, 22)) << nameOf(format);
         const HeightMap mip = levelOf(map, wordsOf(map), 1);
-        const EdgeRates rates{model.uniformRates(8), Spacing::equal, std::vector<float>(model.cornerCount(), 1)};
+        const EdgeRates rates{uniformRates(model, 8), Spacing::equal, std::vector<float>(model.cornerFlags.size(), 1)};
         const DenseMesh mesh = dicer.diceToHost(model, rates, {.wantsTexCoords = true});
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
             EXPECT_NEAR(mesh.positions[i].y, sampleHeight(mip, dvec2(mesh.texCoords[i])).h, 2e-5) << nameOf(format);
@@ -247,7 +247,7 @@ TEST_F(Bases, specialisedPatchesEqualOpenSubdivsGenericBasis) {
     const HeightMap map = sineMap(64, 0.05);
     for (const NamedCage& named : allCages()) {
         const Surface surface = buildSurface(named.cage, {.isolation = 3});
-        const Model model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         const std::vector<SampleQuery> queries = randomQueries(surface, 200);
         const std::vector<SampleResult> ours = sampler().sample(model, queries);
         const std::vector<SampleResult> theirs = sampler().sample(model, queries, {.isGenericBasis = true});

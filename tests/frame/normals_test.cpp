@@ -30,7 +30,7 @@ TEST_F(Normals, ofAllThreeKindsEqualTheReference) {
         const SurfaceOptions options{.isolation = 3};
         const Surface surface = buildSurface(named.cage, options);
         const ReferenceSurface reference(named.cage, options);
-        const Model model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         const std::vector<SampleQuery> queries = insidePoints(surface);
         for (const NormalKind kind : {NormalKind::limit, NormalKind::firstOrder, NormalKind::full}) {
             const std::vector<SampleResult> results = sampler().sample(model, queries, {.normal = kind});
@@ -49,7 +49,7 @@ TEST_F(Normals, ofAllThreeKindsEqualTheReference) {
 template <typename Check>
 void sampleAll(const Cage& cage, const HeightMap& map, NormalKind kind, const Check& check) {
     const Surface surface = buildSurface(cage, {.isolation = 2});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
     for (const SampleResult& result : sampler().sample(model, insidePoints(surface), {.normal = kind})) check(result);
 }
 
@@ -91,7 +91,7 @@ TEST_F(Normals, ofTheFullKindAreThoseOfTheDisplacedPoints) {
     const HeightMap map = sineMap(2048, 0.2, 1);
     const Surface surface = buildSurface(cage, {.isolation = 2});
     const ReferenceSurface reference(cage, {.isolation = 2});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
     const std::vector<SampleQuery> queries = insidePoints(surface);
     const std::vector<SampleResult> full = sampler().sample(model, queries);
     const std::vector<SampleResult> first = sampler().sample(model, queries, {.normal = NormalKind::firstOrder});

@@ -49,7 +49,7 @@ TEST_F(Pictures, ofTessellationAndGridAgree) {
     for (const NamedCage& named : allCages()) {
         if (named.name == "moebiusStrip") continue; // one-sided: which side a shared vertex faces depends on the draw
         const Surface surface = buildSurface(named.cage, {.isolation = 3});
-        const Model model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         RenderOptions options = optionsFor(named.cage, Show::normal);
         options.rate = 32;
         const Picture patches = renderer().render(model, options);
@@ -65,7 +65,7 @@ TEST_F(Pictures, ofLoopSurfacesAgreeBetweenPaths) {
     if (!device().traits().hasTessellation) GTEST_SKIP() << "no tessellation shaders";
     const Cage cage = icosahedron();
     const Surface surface = buildSurface(cage, {.scheme = Scheme::loop, .isolation = 3});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     RenderOptions options = optionsFor(cage, Show::shaded);
     const Picture patches = renderer().render(model, options);
     options.path = Path::grid;
@@ -78,9 +78,9 @@ TEST_F(Pictures, ofTheGridEqualADenseMeshOfTheReference) {
     const Cage cage = torusWithSeams();
     const HeightMap map = sineMap(128, 0.1);
     const Surface surface = buildSurface(cage, {.isolation = 3});
-    const Model displaced(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const SurfaceModel displaced(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
     const DenseMesh mesh = denseMesh(ReferenceSurface(cage, {.isolation = 3}), &map, 12);
-    const Model dense(device(), {.dense = &mesh});
+    const MeshModel dense(device(), {.mesh = &mesh});
     for (const Show show : {Show::normal, Show::shaded}) {
         RenderOptions options = optionsFor(cage, show);
         options.path = Path::grid;
@@ -118,7 +118,7 @@ TEST_F(Pictures, haveNoHolesInsideAClosedSurface) {
     const Cage cage = cubeOfIslands();
     const HeightMap map = sineMap(32, 0.2, 3);
     const Surface surface = buildSurface(cage, {});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
     for (const Path path : {Path::tessellation, Path::grid})
         for (const double azimuth : {30.0, 150.0, 270.0}) {
             RenderOptions options = optionsFor(cage, Show::normal);
@@ -134,7 +134,7 @@ TEST_F(Pictures, haveNoHolesInsideAClosedSurface) {
 TEST_F(Pictures, takeOneRatePerEdgeFromItsLengthOnScreen) {
     const Cage cage = mixedFaces();
     const Surface surface = buildSurface(cage, {});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     RenderOptions options = optionsFor(cage, Show::rate);
     options.rate.reset();
     std::uint64_t last = 0;
@@ -159,8 +159,8 @@ TEST(Plans, countTheTessellatorsTriangles) {
 TEST_F(Pictures, areDrawnInBatchesThatSuitTheDevice) {
     const Cage cage = torusWithSeams();
     const Surface surface = buildSurface(cage, {.isolation = 2});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
-    const DrawPlan plan = planPatches(model, {model.uniformRates(9)}, 1000); // 100 vertices a face
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const DrawPlan plan = planPatches(model, {uniformRates(model, 9)}, 1000); // 100 vertices a face
     EXPECT_EQ(plan.faces.size(), 48u);
     EXPECT_EQ(plan.batches.size(), 5u);
     EXPECT_EQ(plan.triangleCount, 48u * 2 * 81);
@@ -170,7 +170,7 @@ TEST_F(Pictures, areDrawnInBatchesThatSuitTheDevice) {
 TEST_F(Pictures, areTheSameBitsInHoweverManyPartsAMeshIsDrawn) {
     const Cage cage = creasedCube();
     const Surface surface = buildSurface(cage, {.isolation = 3});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     for (const Show show : {Show::shaded, Show::faces, Show::wireframe}) {
         RenderOptions options = optionsFor(cage, show);
         options.path = Path::dice;
@@ -182,7 +182,7 @@ TEST_F(Pictures, areTheSameBitsInHoweverManyPartsAMeshIsDrawn) {
 }
 
 /// What the middle of the picture shows of a face that is looked at straight: red, green and blue in codes of 8 bits.
-std::vector<float> codesOfFrontFace(const Model& model, RenderOptions options) {
+std::vector<float> codesOfFrontFace(const SurfaceModel& model, RenderOptions options) {
     options.camera = {.eye = {0, 0, 1000}, .fieldOfView = 0.1, .nearDistance = 900, .farDistance = 1100};
     const Image image = renderer().render(model, options).image();
     const float* middle = image.at(image.width / 2, image.height / 2);
@@ -198,7 +198,7 @@ TEST_F(Pictures, showColorsThatAreWholeCodes) {
         for (std::uint32_t i = 1; i <= 5; ++i) {
             std::rotate(cage.corners.begin(), cage.corners.begin() + 4, cage.corners.end()); // another face in front
             const Surface surface = buildSurface(cage, {.isolation = 2});
-            const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+            const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
             RenderOptions options = optionsFor(cage, show);
             options.path = Path::grid;
             options.rate = show == Show::rate ? 12 * i : 1;
@@ -210,7 +210,7 @@ TEST_F(Pictures, showColorsThatAreWholeCodes) {
 TEST_F(Pictures, refuseRatesPastTheTessellator) {
     const Cage cage = cube();
     const Surface surface = buildSurface(cage, {.isolation = 2});
-    const Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     RenderOptions options = optionsFor(cage, Show::shaded);
     options.rate = 65;
     EXPECT_THROW(renderer().render(model, options), Error);

@@ -37,7 +37,7 @@ struct Subject {
     Cage cage;
     HeightMap map;
     Surface surface = buildSurface(cage, {.isolation = 3});
-    Model model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
+    SurfaceModel model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
 };
 
 TEST_F(Rates, boundsHoldEveryDisplacedPoint) {
@@ -46,7 +46,7 @@ TEST_F(Rates, boundsHoldEveryDisplacedPoint) {
         const std::vector<SampleQuery> queries = queriesOf(s.surface, 7);
         const std::vector<SampleResult> results = sampler().sample(s.model, queries);
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            const Bounds& box = s.model.faceBounds()[queries[i].face];
+            const Bounds& box = s.model.faceBounds[queries[i].face];
             const dvec3 q(results[i].q);
             EXPECT_TRUE(glm::all(glm::greaterThan(q, box.lower - 1e-5)) && glm::all(glm::lessThan(q, box.upper + 1e-5)))
                 << named.name << " face " << queries[i].face;
@@ -69,7 +69,7 @@ TEST_F(Rates, boundsFollowTheMapAndNotItsExtremes) {
     texels[5 * 64 + 5] = 1; // one spike in the upper left corner
     const Subject s{boundaryGrid(16, 16), makeHeightMap(64, 64, texels, 0, 10, Wrap::clamp)};
     const auto isHigh = [](const Bounds& box) { return box.upper.y > 1; };
-    const auto count = std::ranges::count_if(s.model.faceBounds(), isHigh);
+    const auto count = std::ranges::count_if(s.model.faceBounds, isHigh);
     EXPECT_GE(count, 1);
     EXPECT_LE(count, 40); // of 256
 }
@@ -151,7 +151,7 @@ TEST_F(Rates, chooseTheMipWhoseTexelsAreAsLargeAsSegments) {
     const TriangleOptions coarse{.path = Path::dice, .rate = 4}, fine{.path = Path::dice, .rate = 64};
     EXPECT_FALSE(rater().rates(s.model, fine, {}).hasMips());
     const EdgeRates rates = rater().rates(s.model, coarse, {});
-    ASSERT_EQ(rates.cornerLevels.size(), s.model.cornerCount());
+    ASSERT_EQ(rates.cornerLevels.size(), s.model.cornerFlags.size());
     for (const float level : rates.cornerLevels) EXPECT_NEAR(level, 4, 0.6);
 
     const auto reach = [&](const EdgeRates& r) {
@@ -168,7 +168,7 @@ TEST_F(Rates, fractionalSpacingIsContinuous) {
     const Subject s{cube(), sineMap(64, 0.1)};
     const auto points = [&](float rate) {
         return dicer()
-            .diceToHost(s.model, {std::vector<float>(s.model.edges().size(), rate), Spacing::fractional, {}})
+            .diceToHost(s.model, {std::vector<float>(s.model.edges.size(), rate), Spacing::fractional, {}})
             .positions;
     };
     const std::vector<vec3> before = points(8), after = points(8.001f);

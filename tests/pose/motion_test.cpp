@@ -60,7 +60,7 @@ struct MovingScene {
     Cage cage;
     HeightMap map = sineMap(64, 0.1);
     Surface surface = buildSurface(cage, {.isolation = 3});
-    Model model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
+    SurfaceModel model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
     Poser poser{device(), model, {.surface = &surface, .keepsBefore = true}};
     RenderOptions options;
 
@@ -112,7 +112,7 @@ TEST_F(Motion, ofARigidMoveIsThatOfThePointsThatAreSeen) {
 TEST_F(Motion, ofAShearIsExactWhateverTheRates) {
     Cage cage = torusWithSeams();
     const Surface surface = buildSurface(cage, {.isolation = 3});
-    Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     Poser poser(device(), model, {.surface = &surface, .keepsBefore = true});
     const mat3 shear(1.05f, 0, 0.1f, 0.08f, 0.95f, 0, 0, 0.12f, 1);
     const Pose now = poseOf(moved(cage.positions, shear, vec3(0))), before = poseOf(cage.positions);
@@ -184,7 +184,7 @@ TEST_F(Motion, keepsTheTrianglesClosed) {
           NamedCage{"mixed faces", mixedFaces()}, NamedCage{"torus with seams", torusWithSeams()}}) {
         const Surface surface = buildSurface(named.cage, {});
         for (const HeightSpace space : {HeightSpace::absolute, HeightSpace::stretch}) {
-            Model model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+            SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
             Poser poser(device(), model,
                         {.surface = &surface, .heightSpace = space, .restPositions = named.cage.positions});
             const auto animation =

@@ -31,7 +31,7 @@ TEST_F(ManyNeighbourPoses, giveTheLimitPointsOfThePosedCage) {
         const SurfaceOptions options{.isolation = 4};
         const Surface surface = buildSurface(cage, options);
         ASSERT_GT(surface.stencils.sharedRowCount, 0u);
-        Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+        SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
         Poser poser(device(), model, {.surface = &surface});
         const std::vector<vec3> positions = bent(cage);
         poser.pose(poseOf(positions));
@@ -39,7 +39,7 @@ TEST_F(ManyNeighbourPoses, giveTheLimitPointsOfThePosedCage) {
         reference.pose(positions);
         const std::vector<SampleQuery> queries = queriesOf(surface);
         const std::vector<SampleResult> results = sampler().sample(model, queries);
-        const std::vector<Bounds> boxes = FaceSupports(surface).bounds(positions, model.faceHeightBounds());
+        const std::vector<Bounds> boxes = FaceSupports(surface).bounds(positions, model.faceHeightBounds);
         for (std::size_t i = 0; i < queries.size(); ++i) {
             const dvec3 p = reference.limit(int(queries[i].face), dvec2(queries[i].uv)).p;
             ASSERT_LT(glm::length(p - dvec3(results[i].p)), 5e-6) << "face " << queries[i].face;

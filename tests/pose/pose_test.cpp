@@ -124,7 +124,7 @@ TEST_F(Poses, giveTheLimitPointsOfThePosedCage) {
     for (const Case& c : allCases()) {
         const Surface surface = buildSurface(c.cage, c.options);
         ReferenceSurface reference(c.cage, c.options);
-        Model model(device(), {.surface = &surface, .cagePositions = c.cage.positions, .height = &map});
+        SurfaceModel model(device(), {.surface = &surface, .cagePositions = c.cage.positions, .height = &map});
         Poser poser(device(), model, {.surface = &surface});
         const std::vector<SampleQuery> queries = randomQueries(surface, 100);
         for (const double amount : {0.3, 0.8}) {
@@ -152,7 +152,7 @@ TEST_F(Poses, giveTheLimitPointsOfThePosedCage) {
 TEST_F(Poses, atRestAreTheModelsOwnPoints) {
     for (const NamedCage& named : {NamedCage{"poles", poles(7)}, NamedCage{"mixed", mixedFaces()}}) {
         const Surface surface = buildSurface(named.cage, {.isolation = 3});
-        Model model(device(), {.surface = &surface, .cagePositions = named.cage.positions});
+        SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions});
         const std::vector<SampleQuery> queries = randomQueries(surface, 50);
         const std::vector<SampleResult> before = sampler().sample(model, queries);
         Poser poser(device(), model, {.surface = &surface});
@@ -166,7 +166,7 @@ TEST_F(Poses, atRestAreTheModelsOwnPoints) {
 TEST_F(Poses, areTheSameBitsWhateverCameBefore) {
     const Cage cage = torusWithSeams();
     const Surface surface = buildSurface(cage, {});
-    Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     Poser poser(device(), model, {.surface = &surface, .keepsBefore = true});
     const std::vector<SampleQuery> queries = randomQueries(surface, 50);
     const Pose one = poseOf(twisted(cage, 0.4)), other = poseOf(twisted(cage, 1.1));
@@ -184,10 +184,10 @@ TEST_F(Poses, keepEveryFaceInItsBox) {
         const SurfaceOptions options{.isolation = 3};
         const Surface surface = buildSurface(named.cage, options);
         ReferenceSurface reference(named.cage, options);
-        Model model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         const std::vector<vec3> positions = twisted(named.cage, 0.9);
         reference.pose(positions);
-        const std::vector<Bounds> boxes = FaceSupports(surface).bounds(positions, model.faceHeightBounds());
+        const std::vector<Bounds> boxes = FaceSupports(surface).bounds(positions, model.faceHeightBounds);
         for (const SampleQuery& query : randomQueries(surface, 300)) {
             const dvec3 q = displacedFrame(reference, &map, int(query.face), dvec2(query.uv)).q;
             const Bounds& box = boxes[query.face];
@@ -200,7 +200,7 @@ TEST_F(Poses, keepEveryFaceInItsBox) {
 TEST_F(Poses, areRefusedWithOtherCountsOrNumbersThatAreNotFinite) {
     const Cage cage = cube();
     const Surface surface = buildSurface(cage, {});
-    Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+    SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     Poser poser(device(), model, {.surface = &surface});
     expectFailure(Failure::input, {"7 positions", "8 expected"},
                   [&] { poser.pose(poseOf(std::vector<vec3>(7, vec3(0)))); });
@@ -258,7 +258,7 @@ TEST_F(Poses, ofRigsAreThoseOfTheProcessor) {
         const Rig rig = randomRig(cage, influences, morphs);
         Pose pose = randomPose(rig);
         if (influences == 0) pose.joints.resize(rig.jointCount);
-        Model model(device(), {.surface = &surface, .cagePositions = cage.positions});
+        SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
         Poser poser(device(), model, {.surface = &surface, .rig = &rig});
         poser.pose(pose);
         EXPECT_EQ(poser.stats().uploadedBytes, 4 * (morphs + 12 * rig.jointCount));
@@ -281,7 +281,7 @@ struct StretchScene {
     HeightMap map = sineMap(512, 0.15, 1);
     Surface surface = buildSurface(cage, options);
     ReferenceSurface rest{cage, options}, reference{cage, options};
-    Model model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
+    SurfaceModel model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
     Poser poser{
         device(), model, {.surface = &surface, .heightSpace = HeightSpace::stretch, .restPositions = cage.positions}};
 
@@ -299,7 +299,7 @@ TEST_F(Poses, thatGrowTwiceStretchHeightsTwice) {
     std::vector<vec3> twice = cage.positions;
     for (vec3& p : twice) p *= 2.0f;
     const StretchScene scene(cage, twice);
-    const Model still(device(), {.surface = &scene.surface, .cagePositions = cage.positions, .height = &scene.map});
+    const SurfaceModel still(device(), {.surface = &scene.surface, .cagePositions = cage.positions, .height = &scene.map});
     const std::vector<SampleQuery> queries = randomQueries(scene.surface, 100);
     const std::vector<SampleResult> results = sampler().sample(scene.model, queries),
                                     before = sampler().sample(still, queries);

@@ -158,10 +158,10 @@ inline std::string nameOf(RateKind kind) {
 }
 
 /// A rate for every edge, 1 to 33 for a whole one; the halves of a split one have the same, as every rater gives them.
-inline std::vector<float> randomRates(const Model& model, Spacing spacing, std::mt19937& random) {
-    std::vector<float> rates(model.edges().size());
+inline std::vector<float> randomRates(const SurfaceModel& model, Spacing spacing, std::mt19937& random) {
+    std::vector<float> rates(model.edges.size());
     for (std::uint32_t edge = 0; edge < rates.size(); ++edge) {
-        const std::uint32_t partner = model.edges()[edge].partner, most = partner == edge ? 33 : 16;
+        const std::uint32_t partner = model.edges[edge].partner, most = partner == edge ? 33 : 16;
         const float fraction = float(random() % 1000) / 1000;
         rates[edge] = spacing == Spacing::equal ? float(1 + random() % most) : 1 + fraction * float(most - 1);
         if (partner < edge) rates[edge] = rates[partner];
@@ -174,11 +174,11 @@ inline EdgeRater& rater() {
     return instance;
 }
 
-inline EdgeRates zooRates(const Model& model, RateKind kind, std::uint32_t seed) {
+inline EdgeRates zooRates(const SurfaceModel& model, RateKind kind, std::uint32_t seed) {
     std::mt19937 random(seed);
     EdgeRates rates;
     if (int(kind) < 6) {
-        rates.rates = model.uniformRates(float(kUniformRates[int(kind)]));
+        rates.rates = uniformRates(model, float(kUniformRates[int(kind)]));
     } else if (kind == RateKind::filtered) {
         rates = rater().rates(model, {.rate = 1 + int(random() % 6), .filtersHeights = true}, {});
     } else {
@@ -188,7 +188,7 @@ inline EdgeRates zooRates(const Model& model, RateKind kind, std::uint32_t seed)
     }
     // Past the last level of any map as well.
     if (kind == RateKind::levels)
-        for (std::size_t corner = 0; corner < model.cornerCount(); ++corner)
+        for (std::size_t corner = 0; corner < model.cornerFlags.size(); ++corner)
             rates.cornerLevels.push_back(float(random() % 900) / 100);
     return rates;
 }

@@ -38,7 +38,7 @@ TEST_F(ZooPictures, areEqualOnAllPaths) {
         const ZooCage& one = cages[i];
         const Surface surface = buildSurface(one.cage, {.scheme = one.scheme, .isolation = 2});
         const std::vector<vec3> positions = posed(one.cage, Pose::twist);
-        const Model model(device(), {.surface = &surface, .cagePositions = positions, .height = &map});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions, .height = &map});
         RenderOptions options = pictureOptions(positions, {});
         options.rate = 32;
         options.path = Path::dice;
@@ -70,7 +70,7 @@ TEST_F(ZooPictures, showNoCracks) {
         const Surface surface = buildSurface(closed.joined(), {.scheme = closed.scheme, .isolation = 2});
         const NamedMap& map = maps[1 + ++turn % 4];
         const std::vector<vec3> positions = closed.posedTogether(kPoses[turn % 2]);
-        const Model model(device(), {.surface = &surface, .cagePositions = positions, .height = map.get()});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions, .height = map.get()});
         for (const Path path : drawnPaths())
             for (const CameraOptions& view : kCrackViews) {
                 RenderOptions options = pictureOptions(positions, view);

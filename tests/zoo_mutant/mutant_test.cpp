@@ -25,7 +25,7 @@ TEST_F(Mutant, isNotWatertight) {
     for (const NamedCage& one : seamedCages()) {
         const Surface surface = buildSurface(one.cage, {.isolation = 2});
         const std::vector<vec3> positions = posed(one.cage, Pose::twist);
-        const Model model(device(), {.surface = &surface, .cagePositions = positions, .height = &smoothMap()});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions, .height = &smoothMap()});
         for (const RateKind kind : {RateKind::uniform7, RateKind::random, RateKind::fractional})
             for (const Path path : capturedPaths()) {
                 const EdgeRates rates = zooRates(model, kind, 1);
@@ -41,7 +41,7 @@ TEST_F(Mutant, showsItsCracks) {
     for (const NamedCage& one : seamedCages()) {
         const Surface surface = buildSurface(one.cage, {.isolation = 2});
         const std::vector<vec3> positions = posed(one.cage, Pose::twist);
-        const Model model(device(), {.surface = &surface, .cagePositions = positions, .height = &smoothMap()});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions, .height = &smoothMap()});
         for (const Path path : drawnPaths()) {
             std::uint64_t pixels = 0;
             for (const CameraOptions& view : kCrackViews) {

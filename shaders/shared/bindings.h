@@ -1,0 +1,41 @@
+// Set 0 of every pass but those that pose a cage. Tables are read through texel buffers, or through storage buffers
+// where the device reads too few texels from one (shaders/tables.glsl). Texel fetches are gathered for all lanes at
+// once on CPU drivers, where a load through an address is a loop over the lanes (5 to 10 times slower), and go through
+// the texture caches of GPUs.
+#ifndef RELIEF_SHARED_BINDINGS_H
+#define RELIEF_SHARED_BINDINGS_H
+
+#include "shared/types.h"
+
+#ifdef __cplusplus
+namespace relief {
+#endif
+
+RELIEF_CONSTANT uint kBindInputs = 0u;         // uniform buffer: PassInputs
+RELIEF_CONSTANT uint kBindHeight = 1u;         // table: words of the height maps, see shared/maps.h
+RELIEF_CONSTANT uint kBindAlbedo = 2u;         // sampled image
+RELIEF_CONSTANT uint kBindEnvironment = 3u;    // sampled image, equirectangular
+RELIEF_CONSTANT uint kBindShadow = 4u;         // sampled image, reversed depth from the key light
+RELIEF_CONSTANT uint kBindRecords = 5u;        // table: the surface's records, see shared/records.h
+RELIEF_CONSTANT uint kBindTree = 6u;           // table: patch trees of faces
+RELIEF_CONSTANT uint kBindPoints = 7u;         // table: control points, one pose after another
+RELIEF_CONSTANT uint kBindTexPoints = 8u;      // table: control points of texture coordinates
+RELIEF_CONSTANT uint kBindEdgeRates = 9u;      // table: segments per edge; written per frame
+RELIEF_CONSTANT uint kBindDrawFaces = 10u;     // table: faces to draw in order; written per frame
+RELIEF_CONSTANT uint kBindMesh = 11u;          // table: vertices of a mesh: position with height, and normal, in turn
+RELIEF_CONSTANT uint kBindMeshTexCoords = 12u; // table: (s,t) per vertex
+RELIEF_CONSTANT uint kBindDiceTable = 13u;     // table: runs of vertices, and those around faces, see shared/dice.h
+RELIEF_CONSTANT uint kBindDiceTiles = 14u;     // table; written per frame
+RELIEF_CONSTANT uint kBindDiceFirsts = 15u;    // table: first vertex of each run; written per frame
+RELIEF_CONSTANT uint kBindLevels = 16u;      // table: mip levels of the height map, one per corner, then four per face
+RELIEF_CONSTANT uint kBindEdgeHeights = 17u; // table: how far heights range along each edge, cage units
+RELIEF_CONSTANT uint kBindDepths = 18u;      // sampled images: the samples of a picture
+RELIEF_CONSTANT uint kBindNormals = 19u;
+RELIEF_CONSTANT uint kBindColors = 20u;
+RELIEF_CONSTANT uint kBindInstances = 21u;
+RELIEF_CONSTANT uint kBindCount = 22u;
+
+#ifdef __cplusplus
+} // namespace relief
+#endif
+#endif

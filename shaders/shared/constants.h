@@ -1,0 +1,57 @@
+// Specialization constants of all shaders: their ids, and the values of those that are no numbers or booleans. Both
+// sides name a constant by its id here; a pipeline hands over one value per id.
+#ifndef RELIEF_SHARED_CONSTANTS_H
+#define RELIEF_SHARED_CONSTANTS_H
+
+#include "shared/types.h"
+
+#ifdef __cplusplus
+namespace relief {
+#endif
+
+RELIEF_CONSTANT uint kIdGenericBasis = 0u;   // OpenSubdiv's own basis for all patches
+RELIEF_CONSTANT uint kIdHasTexCoords = 1u;   // the surface or mesh has texture coordinates
+RELIEF_CONSTANT uint kIdHasHeight = 2u;      // there is a height map
+RELIEF_CONSTANT uint kIdNormal = 3u;         // kNormal...
+RELIEF_CONSTANT uint kIdWantsTexCoords = 4u; // the pass shades with texture coordinates
+RELIEF_CONSTANT uint kIdShow = 5u;           // kShow...
+RELIEF_CONSTANT uint kIdHasAlbedoMap = 6u;
+RELIEF_CONSTANT uint kIdGroupSize = 7u;       // invocations per workgroup
+RELIEF_CONSTANT uint kIdHasMips = 8u;         // heights are read from mip levels
+RELIEF_CONSTANT uint kIdIsCommon = 9u;        // dicing: the common case alone, see dice.glsl
+RELIEF_CONSTANT uint kIdStretches = 10u;      // heights grow with the surface since the rest pose
+RELIEF_CONSTANT uint kIdHasMotion = 11u;      // layers: the surface was in another pose in the frame before
+RELIEF_CONSTANT uint kIdMapFormat = 12u;      // kMap... of shared/maps.h
+RELIEF_CONSTANT uint kIdHasWideIndices = 13u; // control points have 32-bit indices, see shared/records.h
+RELIEF_CONSTANT uint kIdHasStraightCorners = 14u;
+RELIEF_CONSTANT uint kIdPass = 15u;         // kPass...
+RELIEF_CONSTANT uint kIdIsMesh = 16u;       // layers: the model is a triangle mesh
+RELIEF_CONSTANT uint kIdIsPlaced = 17u;     // the model is turned or scaled in the world
+RELIEF_CONSTANT uint kIdHasInstances = 18u; // samples carry the number of their instance
+RELIEF_CONSTANT uint kIdEntries = 19u;      // posing: entries per stencil block, or 0
+RELIEF_CONSTANT uint kIdCount = 20u;
+
+// What a picture shows (--show).
+RELIEF_CONSTANT uint kShowShaded = 0u;
+RELIEF_CONSTANT uint kShowNormal = 1u;
+RELIEF_CONSTANT uint kShowHeight = 2u;
+RELIEF_CONSTANT uint kShowRate = 3u;
+RELIEF_CONSTANT uint kShowFaces = 4u;
+RELIEF_CONSTANT uint kShowWireframe = 5u;
+
+// What a draw is for.
+RELIEF_CONSTANT uint kPassSurface = 0u; // the G-buffer of a picture
+RELIEF_CONSTANT uint kPassShadow = 1u;  // depth from the key light
+RELIEF_CONSTANT uint kPassLines = 2u;   // the lines of a wireframe, over the surface
+RELIEF_CONSTANT uint kPassCracks = 3u;  // front faces count up, back faces down: closed surfaces sum to 0
+RELIEF_CONSTANT uint kPassLayers = 4u;  // what layers.comp reads
+
+// Normals of the displaced surface (--normal).
+RELIEF_CONSTANT uint kNormalLimit = 0u;
+RELIEF_CONSTANT uint kNormalFirstOrder = 1u;
+RELIEF_CONSTANT uint kNormalFull = 2u;
+
+#ifdef __cplusplus
+} // namespace relief
+#endif
+#endif

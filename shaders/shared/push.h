@@ -1,0 +1,43 @@
+// Push constants: one block per pass that has any.
+#ifndef RELIEF_SHARED_PUSH_H
+#define RELIEF_SHARED_PUSH_H
+
+#include "shared/types.h"
+
+#ifdef __cplusplus
+namespace relief {
+#endif
+
+// grid.vert, grid_capture.vert: a batch of faces with as many segments along u and v.
+struct GridPush {
+    uint columns;       // segments along u
+    uint rows;          // segments along v
+    uint firstCaptured; // where the batch's captured vertices begin, less those of the instances before it
+};
+
+// mesh.vert: a whole mesh, or the triangles of one face of a diced one.
+struct MeshPush {
+    uint isOneFace; // 1: the fields below hold
+    uint face;
+    uint rate; // largest of the face's sides
+};
+
+// dice_*.comp: invocations, workgroups or tiles of one of many dispatches.
+struct DicePush {
+    uint first; // number of the dispatch's first workgroup
+    uint count; // dice_edges.comp: vertices of all dispatches
+};
+
+// sample.comp
+struct SamplePush {
+    uint count; // queries
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(GridPush) == 12 && sizeof(MeshPush) == 12 && sizeof(DicePush) == 8 && sizeof(SamplePush) == 4);
+
+// Bytes that every pipeline's layout reserves: what the largest block takes.
+inline constexpr uint kPushBytes = 12;
+} // namespace relief
+#endif
+#endif

@@ -1,0 +1,91 @@
+// Which shaders, constants and formats a pass has: decided by the rows of pass_table.h and by what is drawn.
+#include "frame/renderer_parts.h"
+
+namespace relief {
+
+ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const {
+    const DrawPassRow& row = rowOf(pass);
+    const NormalKind normal = row.hasNormals ? frame.options.normal : NormalKind::limit;
+    ShaderConstants c =
+        drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
+    c.pass = row.constant;
+    c.hasMips = drawn.rates.hasMips();
+    c.hasInstances = row.marksInstances && frame.hasInstances();
+    c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
+    if (pass == DrawPass::layers) {
+        c.wantsTexCoords = true;
+    } else if (row.hasNormals) {
+        const bool hasMap =
+            drawn.surface != nullptr ? drawn.surface->albedo.has_value() : drawn.mesh->albedo.has_value();
+        c.show = frame.technique.constant;
+        c.hasAlbedoMap = pass == DrawPass::surface && frame.technique.wantsAlbedo && hasMap && c.hasTexCoords;
+        c.wantsTexCoords = c.hasAlbedoMap;
+    }
+    return c;
+}
+
+std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const {
+    const bool isTriangles = drawn.isTriangles();
+    std::vector<Stage> stages;
+    const auto add = [&](VkShaderStageFlagBits stage, const char* file, bool ofTriangles) {
+        stages.push_back(shaderStage(device, stage, file, ofTriangles));
+    };
+    if (drawn.surface == nullptr || frame.path == Path::dice) {
+        add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", false);
+    } else if (frame.path == Path::grid) {
+        add(VK_SHADER_STAGE_VERTEX_BIT, "grid.vert", isTriangles);
+    } else {
+        add(VK_SHADER_STAGE_VERTEX_BIT, "patch.vert", isTriangles);
+        add(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", isTriangles);
+        add(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch.tese", isTriangles);
+    }
+    if (const char* fragment = rowOf(pass).fragment) add(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, false);
+    return stages;
+}
+
+const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, const Drawn& drawn, DrawPass pass) {
+    const std::vector<std::uint32_t> constants = constantsOf(frame, drawn, pass).values();
+    std::vector<std::uint32_t> key = constants;
+    key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.path), drawn.mesh != nullptr, drawn.isTriangles()});
+    const auto found = pipelines.find(key);
+    if (found != pipelines.end()) return found->second;
+
+    const DrawPassRow& row = rowOf(pass);
+    const bool isPatches = drawn.surface != nullptr && frame.path == Path::tessellation;
+    GraphicsDesc graphics;
+    graphics.name = row.name;
+    graphics.stages = stagesOf(frame, drawn, pass);
+    graphics.constants = constants;
+    graphics.layout = passLayout(device);
+    graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    for (const VkFormat format : row.colors)
+        if (format != VK_FORMAT_UNDEFINED) graphics.colorFormats.push_back(format);
+    if (row.marksInstances && frame.hasInstances()) graphics.colorFormats.push_back(kInstanceFormat);
+    graphics.depthFormat = row.depth;
+    graphics.samples = row.samples;
+    graphics.additiveBlend = row.isAdditive;
+    graphics.polygonMode = row.drawsLines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
+    graphics.depthBias = row.drawsLines;
+    return pipelines[key] = makeGraphics(device, graphics);
+}
+
+const Pipeline& Renderer::Parts::computePipeline(const char* file, bool isTriangles, const ShaderConstants& constants) {
+    const std::vector<std::uint32_t> values = constants.values();
+    std::vector<std::uint32_t> key = values;
+    key.push_back(isTriangles ? 1 : 0);
+    for (const char* letter = file; *letter != 0; ++letter) key.push_back(std::uint32_t(*letter));
+    const auto found = pipelines.find(key);
+    if (found != pipelines.end()) return found->second;
+    return pipelines[key] =
+               makeCompute(device, {.name = file,
+                                    .stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, isTriangles),
+                                    .constants = values,
+                                    .layout = passLayout(device)});
+}
+
+const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame) {
+    return computePipeline("light.comp", false,
+                           {.show = frame.technique.constant, .hasInstances = frame.hasInstances()});
+}
+
+} // namespace relief

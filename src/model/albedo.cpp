@@ -1,0 +1,73 @@
+#include "model/albedo.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relief {
+namespace {
+
+/// RGBA bytes of an albedo picture and of its mips, largest first; averages run on linear light.
+struct AlbedoMips {
+    std::vector<std::uint8_t> bytes;
+    std::uint32_t levels = 0;
+};
+
+double linearOf(double srgb) { return srgb <= 0.04045 ? srgb / 12.92 : std::pow((srgb + 0.055) / 1.055, 2.4); }
+double srgbOf(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+}
+
+std::uint8_t byteOf(double value) { return std::uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0))); }
+
+struct AlbedoTables {
+    double linear[256];
+    std::uint8_t srgb[4096];
+    AlbedoTables() {
+        for (int i = 0; i < 256; ++i) linear[i] = linearOf(i / 255.0);
+        for (int i = 0; i < 4096; ++i) srgb[i] = byteOf(srgbOf(i / 4095.0));
+    }
+};
+
+AlbedoMips albedoMips(const Image& image) {
+    static const AlbedoTables tables;
+    AlbedoMips mips;
+    auto width = std::size_t(image.width), height = std::size_t(image.height);
+    mips.bytes.reserve(width * height * 4 * 4 / 3 + 64);
+    for (std::size_t i = 0; i < width * height; ++i)
+        for (std::size_t c = 0; c < 4; ++c)
+            mips.bytes.push_back(c < 3 ? byteOf(image.texels[i * std::size_t(image.channels) + c]) : 255);
+    std::size_t from = 0;
+    for (mips.levels = 1; width > 1 || height > 1; ++mips.levels) {
+        const std::size_t w = std::max<std::size_t>(1, width / 2), h = std::max<std::size_t>(1, height / 2);
+        const std::size_t to = mips.bytes.size();
+        for (std::size_t y = 0; y < h; ++y)
+            for (std::size_t x = 0; x < w; ++x)
+                for (std::size_t c = 0; c < 4; ++c) {
+                    double sum = 0;
+                    for (std::size_t k = 0; k < 4; ++k) {
+                        const std::size_t sx = std::min(2 * x + k % 2, width - 1),
+                                          sy = std::min(2 * y + k / 2, height - 1);
+                        sum += tables.linear[mips.bytes[from + (sy * width + sx) * 4 + c]];
+                    }
+                    mips.bytes.push_back(tables.srgb[std::size_t(sum / 4 * 4095 + 0.5)]);
+                }
+        from = to, width = w, height = h;
+    }
+    return mips;
+}
+
+} // namespace
+
+Texture uploadAlbedo(Device& device, const Image& image) {
+    const AlbedoMips mips = albedoMips(image);
+    // Samplers decode the codes each in its own way, but choose none: drivers differ by less than a code of a picture.
+    return uploadTexture(device,
+                         {.name = "albedo map",
+                          .width = std::uint32_t(image.width),
+                          .height = std::uint32_t(image.height),
+                          .mipCount = mips.levels,
+                          .format = VK_FORMAT_R8G8B8A8_SRGB},
+                         std::as_bytes(std::span(mips.bytes)), 4);
+}
+
+} // namespace relief
