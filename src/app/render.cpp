@@ -88,7 +88,11 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     enter(loaded.coordinates(), picture.camera);
     RenderOptions options = renderOptions(picture, device, points);
     options.unit = loaded.coordinates().unit;
-    if (shading.environment) options.lighting.environment = &*shading.environment;
+    GpuEnvironment environment;
+    if (shading.environment) {
+        environment = uploadEnvironment(device, *shading.environment);
+        options.lighting.environment = &environment;
+    }
     Model model(device, {.surface = &loaded.surface,
                          .cagePositions = loaded.cage.positions,
                          .height = loaded.heightMap(),

@@ -31,7 +31,7 @@ void Renderer::Parts::makePlan(Frame& frame, FrameStats& stats) {
     stats.drawCount = std::uint32_t(plan.batches.size());
     stats.maxRate = plan.maxRate;
     frame.drawFaces = uploadWords(device, "faces to draw", plan.faces);
-    frame.bindings[kBindDrawFaces].texels = frame.drawFaces.view.get();
+    frame.bindings[kBindDrawFaces] = frame.drawFaces.binding();
     if (o.path == Path::grid) {
         makeGrids(frame.model, plan);
         return;
@@ -47,8 +47,8 @@ void Renderer::Parts::makeDiced(Frame& frame, FrameStats& stats) {
                               .wantsTexCoords = constantsOf(frame, Pass::color).wantsTexCoords,
                               .memory = frame.options.memory});
     const DicedMesh& mesh = frame.diced;
-    frame.bindings[kBindMesh].texels = mesh.vertices.view.get();
-    frame.bindings[kBindMeshTexCoords].texels = mesh.texCoords.view.get();
+    frame.bindings[kBindMesh] = mesh.vertices.binding();
+    frame.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     stats.triangleCount = mesh.triangleCount;
     stats.vertexCount = mesh.sampleCount;
     stats.faceCount = frame.model.faces().size();

@@ -50,7 +50,7 @@ void Renderer::Parts::renderLayers(const Model& model, const RenderOptions& opti
     FrameStats stats;
     if (!model.isDense()) makeTriangles(frame, stats);
     frame.set = bindingSet(frame, Pass::layers);
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         writeScene(commands, scene, frame.scene);
         layerPass(commands, frame);
         layerValuesPass(commands, frame);

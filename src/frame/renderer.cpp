@@ -111,29 +111,15 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, Pass pass) {
     return pipelines[key] = makeGraphics(device, graphics);
 }
 
-void Renderer::Parts::useEnvironment(const Lighting& lighting, Scene& sceneData) {
-    const Environment* wanted = lighting.environment;
-    if (wanted == nullptr) {
-        if (studio.levels.empty()) studio = studioEnvironment();
-        wanted = &studio;
+void Renderer::Parts::useEnvironment(Frame& frame) {
+    const GpuEnvironment* environment = frame.options.lighting.environment;
+    if (environment == nullptr) {
+        if (!studio) studio = uploadEnvironment(device, studioEnvironment());
+        environment = &*studio;
     }
-    if (wanted != uploadedEnvironment) {
-        std::vector<float> texels; // RGBA, level by level
-        for (const Image& level : wanted->levels)
-            for (std::size_t i = 0; i < level.texels.size(); i += 3)
-                texels.insert(texels.end(), {level.texels[i], level.texels[i + 1], level.texels[i + 2], 1.0f});
-        const Image& base = wanted->levels.front();
-        environment = uploadTexture(device,
-                                    {.name = "environment",
-                                     .width = std::uint32_t(base.width),
-                                     .height = std::uint32_t(base.height),
-                                     .mipCount = std::uint32_t(wanted->levels.size()),
-                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT},
-                                    std::as_bytes(std::span(texels)), 16);
-        uploadedEnvironment = wanted;
-    }
-    std::copy_n(wanted->irradiance, 9, sceneData.irradiance);
-    sceneData.environmentLevel = std::round(sceneData.roughness * float(wanted->levels.size() - 1));
+    std::ranges::copy(environment->irradiance, frame.scene.irradiance);
+    frame.scene.environmentLevel = std::round(frame.scene.roughness * float(environment->levels.desc.mipCount - 1));
+    frame.bindings[kBindEnvironment] = {.view = environment->levels.view.get(), .sampler = around.get()};
 }
 
 void Renderer::Parts::describeView(Frame& frame) {
@@ -153,7 +139,7 @@ void Renderer::Parts::describeView(Frame& frame) {
     s.keyRadiance = vec3(float(o.lighting.keyStrength)) * vec3(1.0f, 0.97f, 0.92f);
     s.albedo = o.material.albedo;
     s.roughness = std::clamp(o.material.roughness, 0.05f, 1.0f);
-    useEnvironment(o.lighting, s);
+    useEnvironment(frame);
     s.hasShadows = castsShadows(frame) ? 1 : 0;
     s.worldToShadow = shadowMatrix(key, o.bounds);
     s.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
@@ -162,8 +148,6 @@ void Renderer::Parts::describeView(Frame& frame) {
     const VkSampler wrap = frame.model.wrap() == Wrap::repeat ? repeating.get() : clamped.get();
     frame.bindings[kBindScene].uniform = scene.handle.get();
     frame.bindings[kBindAlbedo].sampler = wrap;
-    frame.bindings[kBindEnvironment].view = environment.view.get();
-    frame.bindings[kBindEnvironment].sampler = around.get();
     frame.bindings[kBindShadow].view = targets.shadow.view.get();
     frame.bindings[kBindDepths].view = targets.depths.view.get();
     frame.bindings[kBindNormals].view = targets.normals.view.get();
@@ -171,9 +155,9 @@ void Renderer::Parts::describeView(Frame& frame) {
     for (const std::uint32_t image : {kBindShadow, kBindDepths, kBindNormals, kBindColors})
         frame.bindings[image].sampler = nearest.get();
     for (const std::uint32_t texels : {kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
-        frame.bindings[texels].texels = noWords.view.get();
+        frame.bindings[texels] = noWords.binding();
     for (const std::uint32_t floats : {kBindEdgeRates, kBindLevels, kBindEdgeHeights})
-        frame.bindings[floats].texels = frame.bindings[kBindPoints].texels;
+        frame.bindings[floats] = frame.bindings[kBindPoints];
 }
 
 BindingSet Renderer::Parts::bindingSet(const Frame& frame, Pass pass) {
@@ -224,7 +208,7 @@ Picture Renderer::render(const Model& model, const RenderOptions& options) {
     }
     const bool castsShadows = parts.castsShadows(frame);
     frame.set = parts.bindingSet(frame, Parts::Pass::color);
-    parts.device.run([&](VkCommandBuffer commands) {
+    parts.device.submitAndWait([&](VkCommandBuffer commands) {
         parts.timer.reset(commands);
         writeScene(commands, parts.scene, frame.scene);
         parts.timer.stamp(commands);
@@ -268,7 +252,7 @@ std::uint64_t Renderer::crackPixels(const Model& model, const RenderOptions& opt
                                                   .bytes = std::uint64_t(width) * height * 2,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                   .memory = MemoryUse::readback});
-    parts.device.run([&](VkCommandBuffer commands) {
+    parts.device.submitAndWait([&](VkCommandBuffer commands) {
         writeScene(commands, parts.scene, frame.scene);
         Rendering rendering(commands, parts.trianglesInFlight(frame), {{attachment(sums)}, {}, parts.size()});
         parts.draw(rendering, frame, Parts::Pass::cracks);

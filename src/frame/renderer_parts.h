@@ -73,9 +73,7 @@ struct Renderer::Parts {
     std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
     std::map<std::uint32_t, Buffer> grids;                    ///< index buffers of quads by their columns,
     std::map<std::uint32_t, Buffer> triangleGrids;            ///< of triangles by their rate
-    Environment studio;                                       ///< made when first needed
-    const Environment* uploadedEnvironment = nullptr;
-    Texture environment;
+    std::optional<GpuEnvironment> studio;                     ///< made when first needed
     std::optional<LayerTargets> layerTargets;
 
     [[nodiscard]] uvec2 size() const { return {desc.width, desc.height}; }
@@ -100,7 +98,7 @@ struct Renderer::Parts {
     ShaderConstants constantsOf(const Frame& frame, Pass pass) const;
     const Pipeline& pipelineOf(const Frame& frame, Pass pass);
     std::vector<Stage> stagesOf(const Frame& frame, Pass pass) const;
-    void useEnvironment(const Lighting& lighting, Scene& scene);
+    void useEnvironment(Frame& frame);
     void describeView(Frame& frame);
     BindingSet bindingSet(const Frame& frame, Pass pass);
     void makeTriangles(Frame& frame, FrameStats& stats);

@@ -53,7 +53,7 @@ struct Poser::Parts {
     void addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
                  std::uint32_t endBlock);
     void runPass(VkCommandBuffer commands, const PointsPass& pass, const BindingSet& set) const;
-    void bindAll(VkBufferView points);
+    void bindAll(const Binding& points);
     void checkPose(const Pose& pose) const;
     /// What goes to the device: the posed cage, or what moves its rig.
     [[nodiscard]] std::vector<float> uploadOf(const Pose& pose) const;
@@ -84,7 +84,7 @@ Poser::Parts::Parts(Device& device, Model& model, const PoserDesc& desc)
     uploadStencils(blocks);
     uploadRig();
     makePasses(blocks);
-    bindAll(sets.texels.view.get());
+    bindAll(sets.texels.binding());
     const std::optional<std::uint32_t> firstRest = sets.rest;
     if (stretches) mostStretch = float(formulas::kMostStretch);
     model.usePoints(std::move(sets));
@@ -147,16 +147,16 @@ void Poser::Parts::addPass(std::uint32_t entryCount, const StencilBlocks& blocks
                       firstBlock, endBlock, blocks.firsts[firstBlock], entryCount});
 }
 
-void Poser::Parts::bindAll(VkBufferView points) {
+void Poser::Parts::bindAll(const Binding& points) {
     for (int i = 0; i < 2; ++i) {
         Binding bindings[kPoseBindCount];
-        bindings[kPoseUpload].texels = uploads[i].view.get();
-        bindings[kPoseRest].texels = rest.view.get();
-        bindings[kPoseJoints].texels = joints.view.get();
-        bindings[kPoseInfluences].texels = influences.view.get();
-        bindings[kPosePoints].texels = points;
-        bindings[kPoseWords].texels = words.view.get();
-        bindings[kPoseWeights].texels = weights.view.get();
+        bindings[kPoseUpload] = uploads[i].binding();
+        bindings[kPoseRest] = rest.binding();
+        bindings[kPoseJoints] = joints.binding();
+        bindings[kPoseInfluences] = influences.binding();
+        bindings[kPosePoints] = points;
+        bindings[kPoseWords] = words.binding();
+        bindings[kPoseWeights] = weights.binding();
         sets[i] = makeBindingSet(device, cagePipeline, poseLayout(), bindings);
     }
 }
@@ -184,7 +184,7 @@ void Poser::Parts::evaluate(std::span<const float> floats, std::uint32_t firstPo
     std::memcpy(uploads[upload].buffer.mapped, floats.data(), floats.size_bytes());
     push.firstPoint = firstPoint;
     push.isRigged = isRigged ? 1 : 0;
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         bind(commands, cagePipeline, sets[upload]);
         relief::push(commands, cagePipeline, std::as_bytes(std::span(&push, 1)));
         vkCmdDispatch(commands, (push.pointCount + kCageGroup - 1) / kCageGroup, 1, 1);
@@ -230,7 +230,8 @@ void Poser::pose(const Pose& now, const Pose* before) {
 
     std::vector<float> heightBounds = parts.model.faceHeightBounds();
     for (float& reach : heightBounds) reach *= parts.mostStretch;
-    std::vector<Bounds> boxes = parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
+    std::vector<Bounds> boxes =
+        parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
     parts.bounds = {};
     for (const Bounds& box : boxes) {
         if (box.isEmpty()) continue;

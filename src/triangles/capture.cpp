@@ -66,9 +66,9 @@ struct Capture {
         parts.inputs.fill(model, scene, bindings);
         scene.captureTarget = target.address;
         useRates(model, rates, rateTexels, scene, bindings);
-        bindings[kBindDrawFaces].texels = drawFaces.view.get();
+        bindings[kBindDrawFaces] = drawFaces.binding();
         const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
-        device.run([&](VkCommandBuffer commands) {
+        device.submitAndWait([&](VkCommandBuffer commands) {
             constexpr std::uint32_t notANumber = 0xffffffffu; // what is never written must not look like a point
             vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, notANumber);
             writeScene(commands, parts.inputs.scene(), scene);

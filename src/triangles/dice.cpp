@@ -223,9 +223,9 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
     Binding bindings[kBindDepths];
     inputs.fill(model, scene, bindings);
     useRates(model, rates, rateTexels, scene, bindings);
-    bindings[kBindDiceTable].texels = table.texels.view.get();
-    bindings[kBindDiceTiles].texels = tileTexels.view.get();
-    bindings[kBindDiceFirsts].texels = firsts.view.get();
+    bindings[kBindDiceTable] = table.texels.binding();
+    bindings[kBindDiceTiles] = tileTexels.binding();
+    bindings[kBindDiceFirsts] = firsts.binding();
     scene.dicedVertices = mesh.vertices.buffer.address;
     scene.dicedTexCoords = mesh.texCoords.buffer.address;
     scene.dicedIndices = mesh.indices.address;
@@ -265,7 +265,7 @@ DicedMesh Dicer::Parts::dice(const Model& model, const EdgeRates& rates, const D
 
 double Dicer::Parts::run(std::span<const Pass> passes, const BindingSet& set, const Scene& scene) {
     const auto start = std::chrono::steady_clock::now();
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         timer.reset(commands);
         writeScene(commands, inputs.scene(), scene);
         timer.stamp(commands);

@@ -72,12 +72,13 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const Model& m
     Binding bindings[kBindDepths];
     inputs.fill(model, scene, bindings);
     scene.edgeTarget = out.address;
-    if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights].texels = what.edgeHeights->view.get();
+    if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights] = what.edgeHeights->binding();
     ShaderConstants constants = constantsOf(model, NormalKind::limit);
     constants.wantsTexCoords = what.words > 1;
     const Pipeline& pipeline = stages.pipeline(what.file, model, constants);
+    const Download download(device, numbers.size() * sizeof(float));
     const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         timer.reset(commands);
         writeScene(commands, inputs.scene(), scene);
         timer.stamp(commands);
@@ -85,10 +86,11 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const Model& m
         pushConstants(commands, pipeline, {});
         vkCmdDispatch(commands, std::uint32_t((model.edges().size() + 63) / 64), 1, 1);
         timer.stamp(commands);
+        download.record(commands, out);
     });
     const std::vector<double> times = timer.intervals();
     if (what.milliseconds != nullptr && !times.empty()) *what.milliseconds = times[0];
-    downloadBytes(device, out, std::as_writable_bytes(std::span(numbers)));
+    std::ranges::copy(download.bytes(), std::as_writable_bytes(std::span(numbers)).begin());
     return numbers;
 }
 
@@ -174,8 +176,8 @@ void useRates(const Model& model, const EdgeRates& rates, const RateTexels& texe
               std::span<Binding> bindings) {
     scene.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
     scene.firstFaceLevel = std::uint32_t(model.cornerCount());
-    bindings[kBindEdgeRates].texels = texels.rates.view.get();
-    bindings[kBindLevels].texels = texels.levels.view.get();
+    bindings[kBindEdgeRates] = texels.rates.binding();
+    bindings[kBindLevels] = texels.levels.binding();
 }
 
 FaceSegments faceSegments(const Model& model, const EdgeRates& rates, std::uint32_t face) {

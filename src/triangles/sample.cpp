@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "triangles/stages.h"
 
 namespace relief {
@@ -48,13 +50,15 @@ std::vector<SampleResult> SurfaceSampler::sample(const Model& model, std::span<c
     constants.wantsTexCoords = true;
     const Pipeline& pipeline = parts_->stages.pipeline("sample.comp", model, constants);
     const BindingSet set = makeBindingSet(device, pipeline, GeometryInputs::layout(), bindings);
-    device.run([&](VkCommandBuffer commands) {
+    const Download download(device, results.size() * sizeof(SampleResult));
+    device.submitAndWait([&](VkCommandBuffer commands) {
         writeScene(commands, parts_->inputs.scene(), scene);
         bind(commands, pipeline, set);
         pushConstants(commands, pipeline, {.passNumber = std::uint32_t(queries.size())});
         vkCmdDispatch(commands, std::uint32_t((queries.size() + 63) / 64), 1, 1);
+        download.record(commands, out);
     });
-    downloadBytes(device, out, std::as_writable_bytes(std::span(results)));
+    std::ranges::copy(download.bytes(), std::as_writable_bytes(std::span(results)).begin());
     return results;
 }
 

@@ -18,9 +18,9 @@ void GeometryInputs::fill(const Model& model, Scene& scene, std::span<Binding> b
     for (const std::uint32_t image : {kBindAlbedo, kBindEnvironment, kBindShadow})
         bindings[image].sampler = sampler_.get();
     for (const std::uint32_t texels : {kBindDrawFaces, kBindDiceTable, kBindDiceTiles, kBindDiceFirsts})
-        bindings[texels].texels = none_.view.get();
+        bindings[texels] = none_.binding();
     for (const std::uint32_t floats : {kBindEdgeRates, kBindLevels, kBindEdgeHeights})
-        bindings[floats].texels = bindings[kBindPoints].texels;
+        bindings[floats] = bindings[kBindPoints];
 }
 
 const Pipeline& ComputeStages::pipeline(const char* file, const Model& model, const ShaderConstants& constants) {
