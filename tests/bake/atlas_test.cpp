@@ -61,7 +61,9 @@ TEST(Atlas, spreadCoversWhatIsNotPainted) {
     const std::vector<float> before = image.texels;
     atlas.spread(image);
     for (std::size_t i = 0; i < before.size(); ++i) {
-        if (before[i] >= 0) EXPECT_EQ(image.texels[i], before[i]) << i;
+        if (before[i] >= 0) {
+            EXPECT_EQ(image.texels[i], before[i]) << i;
+        }
         EXPECT_GE(image.texels[i], 0) << i;
         EXPECT_EQ(image.texels[i], std::floor(image.texels[i])) << "a value of one face, none between two";
     }

@@ -115,7 +115,7 @@ TEST(LoweredLimits, neverRaiseWhatTheDeviceStates) {
 
 TEST(LoweredLimits, comeFromTheEnvironmentToo) {
     setenv("RELIEF_MAX_TEXEL_BUFFER_ELEMENTS", "65536", 1);
-    EXPECT_EQ(Device({}).traits().maxTexelBufferElements, 65536u);
+    EXPECT_EQ(Device(DeviceDesc{}).traits().maxTexelBufferElements, 65536u);
     EXPECT_EQ(Device({.maxTexelBufferElements = 7}).traits().maxTexelBufferElements, 7u);
     for (const char* bad : {"", "0", "many", "12x", "99999999999"}) {
         setenv("RELIEF_MAX_TEXEL_BUFFER_ELEMENTS", bad, 1);
