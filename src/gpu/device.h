@@ -92,9 +92,10 @@ public:
     [[nodiscard]] std::uint64_t reservedBytes() const;
 
     /// Records commands with `record`, submits them after all pending uploads, and waits until the device is done.
-    /// Nothing else waits, but an upload that finds much staging memory in use (submitUploads). A frame of the dice path
-    /// waits three times, of the other paths twice: for rates, which the host plans triangles from; for diced vertices,
-    /// whose time is taken by the host's clock on CPU devices; and for the picture. Each posed set of points adds one.
+    /// Nothing else waits, but an upload that finds much staging memory in use (submitUploads). A frame of the dice
+    /// path waits three times, of the other paths twice: for rates, which the host plans triangles from; for diced
+    /// vertices, whose time is taken by the host's clock on CPU devices; and for the picture. Each posed set of points
+    /// adds one.
     void submitAndWait(const std::function<void(VkCommandBuffer)>& record);
     /// Submits pending uploads and waits; does nothing where there are none.
     void submitUploads();
