@@ -113,6 +113,7 @@ private:
     Bounds polygonBounds_;                   ///< in the pose that is drawn
     bool isDense_ = false;
     std::unique_ptr<Device> device_;
+    std::optional<GpuEnvironment> environment_; ///< that was asked for
     std::unique_ptr<Model> model_;
     std::unique_ptr<Poser> poser_;
     std::unique_ptr<MeshPoser> meshPoser_; ///< of the polygons
@@ -159,7 +160,8 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
     loaded_.surface = {}; // all of it is on the device now
     loaded_.height.reset();
     loaded_.dense.reset();
-    shading_.albedo.reset();
+    if (shading_.environment) environment_ = uploadEnvironment(*device_, *shading_.environment);
+    shading_ = {};
     malloc_trim(0);
     renderer_ = std::make_unique<Renderer>(
         *device_, RendererDesc{.width = picture_.camera.size[0], .height = picture_.camera.size[1]});
@@ -179,7 +181,7 @@ RenderOptions FrameMaker::optionsAt(int frame) const {
     };
     RenderOptions options = at(frame);
     options.cameraBefore = at(frame - 1).camera;
-    if (shading_.environment) options.lighting.environment = &*shading_.environment;
+    if (environment_) options.lighting.environment = &*environment_;
     return options;
 }
 

@@ -88,7 +88,11 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     enter(loaded.coordinates(), picture.camera);
     RenderOptions options = renderOptions(picture, device, points);
     options.unit = loaded.coordinates().unit;
-    if (shading.environment) options.lighting.environment = &*shading.environment;
+    std::optional<GpuEnvironment> environment;
+    if (shading.environment) {
+        environment = uploadEnvironment(device, *shading.environment);
+        options.lighting.environment = &*environment;
+    }
     const Image* albedo = shading.albedo ? &*shading.albedo : nullptr;
     Model model = loaded.dense ? Model(MeshModel(device, {.mesh = &*loaded.dense, .albedo = albedo}))
                                : Model(SurfaceModel(device, {.surface = &loaded.surface,

@@ -34,7 +34,7 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
     stats.drawCount += std::uint32_t(plan.batches.size());
     stats.maxRate = std::max(stats.maxRate, plan.maxRate);
     drawn.drawFaces = uploadWords(device, "faces to draw", plan.faces);
-    bindTable(drawn.bindings[kBindDrawFaces], drawn.drawFaces);
+    drawn.bindings[kBindDrawFaces] = drawn.drawFaces.binding();
     if (frame.path == Path::grid) {
         makeGrids(model, plan);
         return;
@@ -50,8 +50,8 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
                               .wantsTexCoords = constantsOf(frame, drawn, DrawPass::surface).wantsTexCoords,
                               .memory = frame.options.memory});
     const DicedMesh& mesh = drawn.diced;
-    bindTable(drawn.bindings[kBindMesh], mesh.vertices);
-    bindTable(drawn.bindings[kBindMeshTexCoords], mesh.texCoords);
+    drawn.bindings[kBindMesh] = mesh.vertices.binding();
+    drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     stats.triangleCount += mesh.triangleCount;
     stats.vertexCount += mesh.sampleCount;
     stats.faceCount += drawn.surface->faces.size();

@@ -167,4 +167,23 @@ Environment loadEnvironment(const std::string& path) {
     return prepare(std::move(image));
 }
 
+GpuEnvironment uploadEnvironment(Device& device, const Environment& environment) {
+    RELIEF_CHECK(!environment.levels.empty());
+    std::vector<float> texels; // RGBA, level by level
+    for (const Image& level : environment.levels)
+        for (std::size_t i = 0; i < level.texels.size(); i += 3)
+            texels.insert(texels.end(), {level.texels[i], level.texels[i + 1], level.texels[i + 2], 1.0f});
+    const Image& base = environment.levels.front();
+    GpuEnvironment uploaded;
+    uploaded.levels = uploadTexture(device,
+                                    {.name = "environment",
+                                     .width = std::uint32_t(base.width),
+                                     .height = std::uint32_t(base.height),
+                                     .mipCount = std::uint32_t(environment.levels.size()),
+                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT},
+                                    std::as_bytes(std::span(texels)), 4 * sizeof(float));
+    std::ranges::copy(environment.irradiance, uploaded.irradiance);
+    return uploaded;
+}
+
 } // namespace relief

@@ -40,10 +40,10 @@ View viewOf(const Camera& camera, int height);
 /// Unit vector at azimuth and elevation in degrees, from the origin towards that place.
 dvec3 directionAt(double azimuth, double elevation);
 
-/// An equirectangular environment, ready to light with.
+/// An equirectangular environment on the host, ready to light with.
 struct Environment {
-    std::vector<Image> levels; ///< RGB, level l for roughness l / (levels - 1)
-    vec3 irradiance[9];        ///< see light.comp
+    std::vector<Image> levels; ///< RGB radiance; level l is seen by a surface of roughness l / (levels.size() - 1)
+    vec3 irradiance[9];        ///< coefficients of polynomials of the normal, see light.comp
 };
 
 /// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
@@ -52,11 +52,20 @@ Environment studioEnvironment();
 /// From a picture (.hdr or .exr, width = 2 height). Throws Failure::input for other shapes and values below zero.
 Environment loadEnvironment(const std::string& path);
 
+/// An environment on the device, which owns its texture: what Lighting refers to.
+struct GpuEnvironment {
+    Texture levels; ///< one mip per level, RGBA
+    vec3 irradiance[9]{};
+};
+
+/// A copy of `environment`: later changes of it do not show.
+GpuEnvironment uploadEnvironment(Device& device, const Environment& environment);
+
 struct Lighting {
     double keyAzimuth = -25, keyElevation = 50; ///< degrees, as the camera's
     double keyStrength = 2.9;                   ///< radiance times pi of the key light
     bool castsShadows = true;
-    const Environment* environment = nullptr;
+    const GpuEnvironment* environment = nullptr; ///< null: studioEnvironment()
 };
 
 struct Material {

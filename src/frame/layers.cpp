@@ -62,7 +62,7 @@ void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
         if (frame.hasInstances()) drawn.bindings[kBindInstances].view = layerTargets->instances->view.get();
     }
     makeSets(frame, DrawPass::layers);
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         writeInputs(commands, frame);
         layerPass(commands, frame);
         layerValuesPass(commands, frame);

@@ -39,30 +39,16 @@ Renderer::Parts::Parts(Device& device, const RendererDesc& desc)
 
 // --- prepare --------------------------------------------------------------------------------------------------------
 
-void Renderer::Parts::useEnvironment(const Lighting& lighting, Frame& frame) {
-    const Environment* wanted = lighting.environment;
-    if (wanted == nullptr) {
-        if (studio.levels.empty()) studio = studioEnvironment();
-        wanted = &studio;
+void Renderer::Parts::useEnvironment(Frame& frame) {
+    const GpuEnvironment* environment = frame.options.lighting.environment;
+    if (environment == nullptr) {
+        if (!studio) studio = uploadEnvironment(device, studioEnvironment());
+        environment = &*studio;
     }
-    if (wanted != uploadedEnvironment) {
-        std::vector<float> texels; // RGBA, level by level
-        for (const Image& level : wanted->levels)
-            for (std::size_t i = 0; i < level.texels.size(); i += 3)
-                texels.insert(texels.end(), {level.texels[i], level.texels[i + 1], level.texels[i + 2], 1.0f});
-        const Image& base = wanted->levels.front();
-        environment = uploadTexture(device,
-                                    {.name = "environment",
-                                     .width = std::uint32_t(base.width),
-                                     .height = std::uint32_t(base.height),
-                                     .mipCount = std::uint32_t(wanted->levels.size()),
-                                     .format = VK_FORMAT_R32G32B32A32_SFLOAT},
-                                    std::as_bytes(std::span(texels)), 16);
-        uploadedEnvironment = wanted;
-    }
-    std::copy_n(wanted->irradiance, 9, frame.inputs.light.irradiance);
+    std::ranges::copy(environment->irradiance, frame.inputs.light.irradiance);
     for (pass::Material& material : frame.materials)
-        material.environmentLevel = std::round(material.roughness * float(wanted->levels.size() - 1));
+        material.environmentLevel = std::round(material.roughness * float(environment->levels.desc.mipCount - 1));
+    frame.bindings[kBindEnvironment] = {.view = environment->levels.view.get(), .sampler = around.get()};
 }
 
 /// Camera and light in the world, and the samples of the picture: what the passes over pixels read.
@@ -85,13 +71,12 @@ void Renderer::Parts::describeView(Frame& frame) {
     light.toShadow = shadowMatrix(key, o.bounds);
     light.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
     light.shadowSoftness = 3.0f / float(desc.shadowSide);
-    useEnvironment(o.lighting, frame);
+    frame.bindings = resources.bindings();
+    useEnvironment(frame);
     frame.inputs.material = frame.materials.front();
     frame.inputs.targets.picture = targets.picture.address;
     frame.inputs.targets.materials = frame.materialTable.address;
 
-    frame.bindings = resources.bindings();
-    frame.bindings[kBindEnvironment] = {.view = environment.view.get(), .sampler = around.get()};
     frame.bindings[kBindShadow] = {.view = targets.shadow.view.get(), .sampler = nearest.get()};
     frame.bindings[kBindDepths] = {.view = targets.depths.view.get(), .sampler = nearest.get()};
     frame.bindings[kBindNormals] = {.view = targets.normals.view.get(), .sampler = nearest.get()};
@@ -249,7 +234,7 @@ Picture Renderer::render(std::span<const Instance> instances, const RenderOption
     const double start = secondsNow();
     Parts::Frame frame = parts.prepare(instances, options);
     parts.makeSets(frame, DrawPass::surface);
-    parts.device.run([&](VkCommandBuffer commands) { parts.record(commands, frame); });
+    parts.device.submitAndWait([&](VkCommandBuffer commands) { parts.record(commands, frame); });
     Picture picture = parts.read(frame);
     picture.stats.wallMs = 1e3 * (secondsNow() - start);
     return picture;
@@ -271,7 +256,7 @@ std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOption
                                                   .bytes = std::uint64_t(width) * height * 2,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                   .memory = MemoryUse::readback});
-    parts.device.run([&](VkCommandBuffer commands) {
+    parts.device.submitAndWait([&](VkCommandBuffer commands) {
         parts.writeInputs(commands, frame);
         Rendering rendering = parts.begin(commands, frame, {{attachment(sums)}, {}, parts.size()});
         parts.draw(rendering, frame, DrawPass::cracks);

@@ -22,9 +22,7 @@ struct Renderer::Parts {
     std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything in which two of them may differ
     std::map<std::uint32_t, Buffer> grids;                    ///< index buffers of quads by their columns,
     std::map<std::uint32_t, Buffer> triangleGrids;            ///< of triangles by their rate
-    Environment studio;                                       ///< made when first needed
-    const Environment* uploadedEnvironment = nullptr;
-    Texture environment;
+    std::optional<GpuEnvironment> studio;                     ///< uploaded when first needed
     std::optional<LayerTargets> layerTargets;
 
     [[nodiscard]] uvec2 size() const { return {desc.width, desc.height}; }
@@ -71,7 +69,7 @@ struct Renderer::Parts {
 
     // prepare()
     void describeView(Frame& frame);
-    void useEnvironment(const Lighting& lighting, Frame& frame);
+    void useEnvironment(Frame& frame);
     Drawn describe(const Frame& frame, const Instance& instance, std::size_t number);
     void makeTriangles(const Frame& frame, Drawn& drawn, FrameStats& stats);
     void makePlan(const Frame& frame, Drawn& drawn, FrameStats& stats);

@@ -9,7 +9,7 @@ Owned<VkShaderModule> makeModule(Device& device, std::span<const std::uint32_t> 
     info.pCode = code.data();
     VkShaderModule module = VK_NULL_HANDLE;
     checkVulkan(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
-    return {module, [d = device.handle()](VkShaderModule m) { vkDestroyShaderModule(d, m, nullptr); }};
+    return {device.handle(), module, vkDestroyShaderModule};
 }
 
 /// Constant ids 0, 1, 2, ...: four bytes each.
@@ -31,8 +31,7 @@ void makeLayout(Device& device, const PipelineLayoutDesc& desc, Pipeline& pipeli
     set.pBindings = bindings.data();
     VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;
     checkVulkan(vkCreateDescriptorSetLayout(device.handle(), &set, nullptr, &setLayout), "vkCreateDescriptorSetLayout");
-    pipeline.setLayout = {
-        setLayout, [d = device.handle()](VkDescriptorSetLayout l) { vkDestroyDescriptorSetLayout(d, l, nullptr); }};
+    pipeline.setLayout = {device.handle(), setLayout, vkDestroyDescriptorSetLayout};
 
     const VkPushConstantRange range{VK_SHADER_STAGE_ALL, 0, desc.pushBytes};
     VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
@@ -42,11 +41,11 @@ void makeLayout(Device& device, const PipelineLayoutDesc& desc, Pipeline& pipeli
     info.pPushConstantRanges = &range;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     checkVulkan(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout), "vkCreatePipelineLayout");
-    pipeline.layout = {layout, [d = device.handle()](VkPipelineLayout l) { vkDestroyPipelineLayout(d, l, nullptr); }};
+    pipeline.layout = {device.handle(), layout, vkDestroyPipelineLayout};
 }
 
 void own(Device& device, Pipeline& pipeline, VkPipeline handle, const std::string& name) {
-    pipeline.handle = {handle, [d = device.handle()](VkPipeline p) { vkDestroyPipeline(d, p, nullptr); }};
+    pipeline.handle = {device.handle(), handle, vkDestroyPipeline};
     device.setName(VK_OBJECT_TYPE_PIPELINE, std::uint64_t(handle), name);
 }
 
@@ -153,47 +152,6 @@ Pipeline makeCompute(Device& device, const ComputeDesc& desc) {
     return pipeline;
 }
 
-BindingSet makeBindingSet(Device& device, const Pipeline& pipeline, const PipelineLayoutDesc& layoutDesc,
-                          std::span<const Binding> bindings) {
-    const auto count = std::uint32_t(bindings.size());
-    std::vector<VkDescriptorPoolSize> sizes;
-    for (const VkDescriptorType type : layoutDesc.bindings) sizes.push_back({type, 1});
-    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.maxSets = 1;
-    info.poolSizeCount = std::uint32_t(sizes.size());
-    info.pPoolSizes = sizes.data();
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    checkVulkan(vkCreateDescriptorPool(device.handle(), &info, nullptr, &pool), "vkCreateDescriptorPool");
-    BindingSet set;
-    set.pool = {pool, [d = device.handle()](VkDescriptorPool p) { vkDestroyDescriptorPool(d, p, nullptr); }};
-
-    const VkDescriptorSetLayout layout = pipeline.setLayout.get();
-    VkDescriptorSetAllocateInfo allocation{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    allocation.descriptorPool = pool;
-    allocation.descriptorSetCount = 1;
-    allocation.pSetLayouts = &layout;
-    checkVulkan(vkAllocateDescriptorSets(device.handle(), &allocation, &set.handle), "vkAllocateDescriptorSets");
-
-    std::vector<VkDescriptorImageInfo> images(count);
-    std::vector<VkDescriptorBufferInfo> buffers(count);
-    std::vector<VkWriteDescriptorSet> writes;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (bindings[i].isEmpty()) continue; // the pipeline's shaders do not read it
-        images[i] = {bindings[i].sampler, bindings[i].view, VK_IMAGE_LAYOUT_GENERAL};
-        buffers[i] = {bindings[i].uniform, 0, VK_WHOLE_SIZE};
-        VkWriteDescriptorSet& write = writes.emplace_back(VkWriteDescriptorSet{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});
-        write.dstSet = set.handle;
-        write.dstBinding = i;
-        write.descriptorCount = 1;
-        write.descriptorType = layoutDesc.bindings[i];
-        write.pImageInfo = &images[i];
-        write.pBufferInfo = &buffers[i];
-        write.pTexelBufferView = &bindings[i].texels;
-    }
-    vkUpdateDescriptorSets(device.handle(), std::uint32_t(writes.size()), writes.data(), 0, nullptr);
-    return set;
-}
-
 void bind(VkCommandBuffer commands, const Pipeline& pipeline, const BindingSet& bindings) {
     vkCmdBindPipeline(commands, pipeline.bindPoint, pipeline.handle.get());
     vkCmdBindDescriptorSets(commands, pipeline.bindPoint, pipeline.layout.get(), 0, 1, &bindings.handle, 0, nullptr);
@@ -202,88 +160,6 @@ void bind(VkCommandBuffer commands, const Pipeline& pipeline, const BindingSet& 
 void push(VkCommandBuffer commands, const Pipeline& pipeline, std::span<const std::byte> bytes) {
     vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_ALL, 0, std::uint32_t(bytes.size()),
                        bytes.data());
-}
-
-namespace {
-
-Owned<VkQueryPool> makeQueries(Device& device, const VkQueryPoolCreateInfo& info) {
-    VkQueryPool pool = VK_NULL_HANDLE;
-    checkVulkan(vkCreateQueryPool(device.handle(), &info, nullptr, &pool), "vkCreateQueryPool");
-    return {pool, [d = device.handle()](VkQueryPool p) { vkDestroyQueryPool(d, p, nullptr); }};
-}
-
-} // namespace
-
-Timer::Timer(Device& device, std::uint32_t capacity) : device_(&device), capacity_(capacity) {
-    if (device.traits().timestampNanoseconds == 0) return;
-    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-    info.queryCount = capacity;
-    pool_ = makeQueries(device, info);
-}
-
-void Timer::reset(VkCommandBuffer commands) {
-    count_ = 0;
-    if (pool_.get() != VK_NULL_HANDLE) vkCmdResetQueryPool(commands, pool_.get(), 0, capacity_);
-}
-
-void Timer::stamp(VkCommandBuffer commands) {
-    if (pool_.get() == VK_NULL_HANDLE || count_ == capacity_) return;
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_.get(), count_++);
-}
-
-std::vector<double> Timer::intervals() const {
-    std::vector<double> intervals;
-    if (pool_.get() == VK_NULL_HANDLE || count_ < 2) return intervals;
-    std::vector<std::uint64_t> ticks(count_);
-    checkVulkan(vkGetQueryPoolResults(device_->handle(), pool_.get(), 0, count_, count_ * sizeof(std::uint64_t),
-                                      ticks.data(), sizeof(std::uint64_t),
-                                      VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                "vkGetQueryPoolResults");
-    for (std::uint32_t i = 1; i < count_; ++i)
-        intervals.push_back(double(ticks[i] - ticks[i - 1]) * device_->traits().timestampNanoseconds * 1e-6);
-    return intervals;
-}
-
-PipelineCounter::PipelineCounter(Device& device) : device_(&device) {
-    if (!device.traits().countsPipeline) return;
-    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-    info.queryType = VK_QUERY_TYPE_PIPELINE_STATISTICS;
-    info.queryCount = 1;
-    info.pipelineStatistics = VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_VERTICES_BIT |
-                              VK_QUERY_PIPELINE_STATISTIC_INPUT_ASSEMBLY_PRIMITIVES_BIT |
-                              VK_QUERY_PIPELINE_STATISTIC_VERTEX_SHADER_INVOCATIONS_BIT |
-                              VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
-                              VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT;
-    if (device.traits().hasTessellation)
-        info.pipelineStatistics |= VK_QUERY_PIPELINE_STATISTIC_TESSELLATION_CONTROL_SHADER_PATCHES_BIT |
-                                   VK_QUERY_PIPELINE_STATISTIC_TESSELLATION_EVALUATION_SHADER_INVOCATIONS_BIT;
-    pool_ = makeQueries(device, info);
-}
-
-void PipelineCounter::begin(VkCommandBuffer commands) const {
-    if (pool_.get() == VK_NULL_HANDLE) return;
-    vkCmdResetQueryPool(commands, pool_.get(), 0, 1);
-    vkCmdBeginQuery(commands, pool_.get(), 0, 0);
-}
-
-void PipelineCounter::end(VkCommandBuffer commands) const {
-    if (pool_.get() != VK_NULL_HANDLE) vkCmdEndQuery(commands, pool_.get(), 0);
-}
-
-PipelineCounts PipelineCounter::counts() const {
-    if (pool_.get() == VK_NULL_HANDLE) return {};
-    std::uint64_t values[7] = {}; // in the order of the bits
-    checkVulkan(vkGetQueryPoolResults(device_->handle(), pool_.get(), 0, 1, sizeof values, values, sizeof values,
-                                      VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-                "vkGetQueryPoolResults");
-    return {.vertices = values[0],
-            .primitives = values[1],
-            .vertexCalls = values[2],
-            .tessellationPatches = values[5],
-            .tessellationCalls = values[6],
-            .drawnPrimitives = values[3],
-            .fragmentCalls = values[4]};
 }
 
 } // namespace relief

@@ -26,13 +26,16 @@ constexpr BindingRow kBindings[] = {
 };
 static_assert(std::size(kBindings) == kBindCount);
 
-constexpr VkDescriptorType kTableType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+VkDescriptorType tableType(const Device& device) {
+    return device.traits().readsTablesAs == TableAccess::storageBuffers ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER
+                                                                        : VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+}
 
-VkDescriptorType descriptorType(BindingKind kind) {
+VkDescriptorType descriptorType(const Device& device, BindingKind kind) {
     switch (kind) {
     case BindingKind::inputs: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
     case BindingKind::image: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    default: return kTableType;
+    default: return tableType(device);
     }
 }
 
@@ -80,26 +83,26 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
 ShaderConstants constantsOf(const MeshModel& model) { return {.hasTexCoords = model.hasTexCoords, .isMesh = true}; }
 
 std::uint64_t largestTable(const Device& device, std::uint64_t elementBytes) {
-    return elementBytes * device.traits().maxTexelBufferElements;
+    const DeviceTraits& traits = device.traits();
+    return traits.readsTablesAs == TableAccess::storageBuffers ? traits.maxStorageBufferRange
+                                                               : elementBytes * traits.maxTexelBufferElements;
 }
 
 TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words) {
     return uploadTexels(device, {.name = name}, VK_FORMAT_R32_UINT, std::as_bytes(words));
 }
 
-void bindTable(Binding& binding, const TexelBuffer& table) { binding.texels = table.view.get(); }
-
-PipelineLayoutDesc tableLayout(const Device&, std::uint32_t count, std::uint32_t pushBytes) {
-    return {std::vector<VkDescriptorType>(count, kTableType), pushBytes};
+PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::uint32_t pushBytes) {
+    return {std::vector<VkDescriptorType>(count, tableType(device)), pushBytes};
 }
 
-Stage shaderStage(const Device&, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles) {
-    return {stage, shaderCode(file, isTriangles)};
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles) {
+    return {stage, shaderCode(file, isTriangles, device.traits().readsTablesAs)};
 }
 
-PipelineLayoutDesc passLayout(const Device&) {
+PipelineLayoutDesc passLayout(const Device& device) {
     PipelineLayoutDesc layout{std::vector<VkDescriptorType>(kBindCount), kPushBytes};
-    for (const BindingRow& row : kBindings) layout.bindings[row.slot] = descriptorType(row.kind);
+    for (const BindingRow& row : kBindings) layout.bindings[row.slot] = descriptorType(device, row.kind);
     return layout;
 }
 
@@ -127,8 +130,8 @@ PassBindings PassResources::bindings() const {
         Binding& binding = bindings[row.slot];
         switch (row.kind) {
         case BindingKind::inputs: binding.uniform = inputs_.handle.get(); break;
-        case BindingKind::words: bindTable(binding, noWords_); break;
-        case BindingKind::floats: bindTable(binding, noFloats_); break;
+        case BindingKind::words: binding = noWords_.binding(); break;
+        case BindingKind::floats: binding = noFloats_.binding(); break;
         case BindingKind::image: binding.view = noImage_.view.get(), binding.sampler = sampler_.get(); break;
         }
     }
@@ -140,22 +143,22 @@ void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindi
     inputs.model.pointsNow = model.points.now;
     inputs.model.pointsBefore = model.points.before;
     inputs.model.pointsRest = model.points.rest.value_or(0);
-    bindTable(bindings[kBindRecords], model.recordTable);
-    bindTable(bindings[kBindTree], model.treeTable);
-    bindTable(bindings[kBindPoints], model.points.table);
-    bindTable(bindings[kBindTexPoints], model.texPointTable);
+    bindings[kBindRecords] = model.recordTable.binding();
+    bindings[kBindTree] = model.treeTable.binding();
+    bindings[kBindPoints] = model.points.table.binding();
+    bindings[kBindTexPoints] = model.texPointTable.binding();
     if (model.height) {
         inputs.model.maps[0] = model.height->record;
         inputs.model.heightBound = model.height->heightBound;
-        bindTable(bindings[kBindHeight], model.height->words);
+        bindings[kBindHeight] = model.height->words.binding();
     }
     describeAlbedo(model.albedo, bindings);
 }
 
 void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings) {
     inputs.model.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
-    bindTable(bindings[kBindMesh], model.vertices);
-    bindTable(bindings[kBindMeshTexCoords], model.texCoords);
+    bindings[kBindMesh] = model.vertices.binding();
+    bindings[kBindMeshTexCoords] = model.texCoords.binding();
     describeAlbedo(model.albedo, bindings);
 }
 

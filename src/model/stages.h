@@ -44,8 +44,6 @@ std::uint64_t largestTable(const Device& device, std::uint64_t elementBytes);
 /// A table of 32-bit words.
 TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words);
 
-void bindTable(Binding& binding, const TexelBuffer& table);
-
 /// The layout of `count` tables alone, bindings 0 to count - 1.
 PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::uint32_t pushBytes);
 

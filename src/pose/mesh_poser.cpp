@@ -51,10 +51,10 @@ MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, co
                                     .memory = MemoryUse::upload});
     p.pipeline = makePosePipeline(device, "pose_mesh.comp");
     PoseBindings bindings;
-    for (Binding& binding : bindings) bindTable(binding, p.rest); // every one is bound, read or not
-    bindTable(bindings[kPoseUpload], p.upload);
-    bindTable(bindings[kPoseJoints], p.joints);
-    bindTable(bindings[kPoseInfluences], p.influences);
+    for (Binding& binding : bindings) binding = p.rest.binding(); // every one is bound, read or not
+    bindings[kPoseUpload] = p.upload.binding();
+    bindings[kPoseJoints] = p.joints.binding();
+    bindings[kPoseInfluences] = p.influences.binding();
     p.set = makeBindingSet(device, p.pipeline, poseLayout(device), bindings);
     p.push.target = model.vertices.buffer.address;
     p.push.pointCount = std::uint32_t(mesh.positions.size());
@@ -67,7 +67,7 @@ void MeshPoser::pose(const Pose& pose) {
     Parts& p = *parts_;
     const std::vector<float> floats = rigFloats(pose);
     std::memcpy(p.upload.buffer.mapped, floats.data(), floats.size() * sizeof(float));
-    p.device.run([&](VkCommandBuffer commands) {
+    p.device.submitAndWait([&](VkCommandBuffer commands) {
         bind(commands, p.pipeline, p.set);
         for (std::uint32_t first = 0; first < p.push.pointCount; first += kGroup * kGroupsAtOnce) {
             PosePush part = p.push;
@@ -85,7 +85,7 @@ std::uint64_t MeshPoser::upload(std::span<const vec3> positions, std::span<const
     const std::vector<vec4> vertices = verticesOf(positions, normals);
     const std::uint64_t bytes = vertices.size() * sizeof(vec4);
     std::memcpy(p.staging.mapped, vertices.data(), bytes);
-    p.device.run([&](VkCommandBuffer commands) {
+    p.device.submitAndWait([&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
         vkCmdCopyBuffer(commands, p.staging.handle.get(), p.model.vertices.buffer.handle.get(), 1, &region);
         barrier(commands);

@@ -150,13 +150,13 @@ void Poser::Parts::addPass(std::uint32_t entryCount, const StencilBlocks& blocks
 void Poser::Parts::bindAll(const TexelBuffer& points) {
     for (int i = 0; i < 2; ++i) {
         PoseBindings bindings;
-        bindTable(bindings[kPoseUpload], uploads[i]);
-        bindTable(bindings[kPoseRest], rest);
-        bindTable(bindings[kPoseJoints], joints);
-        bindTable(bindings[kPoseInfluences], influences);
-        bindTable(bindings[kPosePoints], points);
-        bindTable(bindings[kPoseWords], words);
-        bindTable(bindings[kPoseWeights], weights);
+        bindings[kPoseUpload] = uploads[i].binding();
+        bindings[kPoseRest] = rest.binding();
+        bindings[kPoseJoints] = joints.binding();
+        bindings[kPoseInfluences] = influences.binding();
+        bindings[kPosePoints] = points.binding();
+        bindings[kPoseWords] = words.binding();
+        bindings[kPoseWeights] = weights.binding();
         sets[i] = makeBindingSet(device, cagePipeline, poseLayout(device), bindings);
     }
 }
@@ -184,7 +184,7 @@ void Poser::Parts::evaluate(std::span<const float> floats, std::uint32_t firstPo
     std::memcpy(uploads[upload].buffer.mapped, floats.data(), floats.size_bytes());
     push.firstPoint = firstPoint;
     push.isRigged = isRigged ? 1 : 0;
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         bind(commands, cagePipeline, sets[upload]);
         relief::push(commands, cagePipeline, std::as_bytes(std::span(&push, 1)));
         vkCmdDispatch(commands, (push.pointCount + kCageGroup - 1) / kCageGroup, 1, 1);

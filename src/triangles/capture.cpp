@@ -66,9 +66,9 @@ struct Capture {
         describe(model, inputs, bindings);
         inputs.targets.captured = target.address;
         describeRates(model, rates, rateTables, inputs, bindings);
-        bindTable(bindings[kBindDrawFaces], drawFaces);
+        bindings[kBindDrawFaces] = drawFaces.binding();
         const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
-        device.run([&](VkCommandBuffer commands) {
+        device.submitAndWait([&](VkCommandBuffer commands) {
             constexpr std::uint32_t notANumber = 0xffffffffu; // what is never written must not look like a point
             vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, notANumber);
             parts.resources.write(commands, inputs);

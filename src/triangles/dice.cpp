@@ -261,9 +261,9 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     PassBindings bindings = resources.bindings();
     describe(model, inputs, bindings);
     describeRates(model, rates, rateTables, inputs, bindings);
-    bindTable(bindings[kBindDiceTable], table.texels);
-    bindTable(bindings[kBindDiceTiles], tileTable);
-    bindTable(bindings[kBindDiceFirsts], firsts);
+    bindings[kBindDiceTable] = table.texels.binding();
+    bindings[kBindDiceTiles] = tileTable.binding();
+    bindings[kBindDiceFirsts] = firsts.binding();
     inputs.model.firstFaceRuns = table.firstFaceRuns;
     inputs.model.cornerRunCount = table.cornerRunCount;
     inputs.model.runCount = std::uint32_t(table.runs.size());
@@ -296,7 +296,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
 
 double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& set, const PassInputs& inputs) {
     const auto start = std::chrono::steady_clock::now();
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         timer.reset(commands);
         resources.write(commands, inputs);
         timer.stamp(commands);

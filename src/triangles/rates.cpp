@@ -73,22 +73,24 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceM
     PassBindings bindings = resources.bindings();
     describe(model, inputs, bindings);
     inputs.targets.edges = out.address;
-    if (what.edgeHeights != nullptr) bindTable(bindings[kBindEdgeHeights], *what.edgeHeights);
+    if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights] = *what.edgeHeights.binding();
     ShaderConstants constants = constantsOf(model, NormalKind::limit);
     constants.wantsTexCoords = what.floatCount > 1;
     const Pipeline& pipeline = stages.pipeline(what.file, model, constants);
+    const Download download(device, numbers.size() * sizeof(float));
     const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         timer.reset(commands);
         resources.write(commands, inputs);
         timer.stamp(commands);
         bind(commands, pipeline, set);
         vkCmdDispatch(commands, std::uint32_t((model.edges.size() + 63) / 64), 1, 1);
         timer.stamp(commands);
+        download.record(commands, out);
     });
     const std::vector<double> times = timer.intervals();
     if (what.milliseconds != nullptr && !times.empty()) *what.milliseconds = times[0];
-    downloadBytes(device, out, std::as_writable_bytes(std::span(numbers)));
+    std::ranges::copy(download.bytes(), std::as_writable_bytes(std::span(numbers)).begin());
     return numbers;
 }
 
@@ -182,8 +184,8 @@ void describeRates(const SurfaceModel& model, const EdgeRates& rates, const Rate
                    PassBindings& bindings) {
     inputs.rates.isFractional = rates.spacing == Spacing::fractional ? 1 : 0;
     inputs.rates.firstFaceLevel = std::uint32_t(model.cornerFlags.size());
-    bindTable(bindings[kBindEdgeRates], tables.rates);
-    bindTable(bindings[kBindLevels], tables.levels);
+    bindings[kBindEdgeRates] = tables.rates.binding();
+    bindings[kBindLevels] = tables.levels.binding();
 }
 
 FaceSegments faceSegments(const SurfaceModel& model, const EdgeRates& rates, std::uint32_t face) {

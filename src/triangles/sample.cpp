@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "triangles/stages.h"
 
 namespace relief {
@@ -46,14 +48,16 @@ std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std:
     constants.isGenericBasis = options.isGenericBasis;
     constants.wantsTexCoords = true;
     const Pipeline& pipeline = parts_->stages.pipeline("sample.comp", model, constants);
+    const Download download(device, results.size() * sizeof(SampleResult));
     const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
-    device.run([&](VkCommandBuffer commands) {
+    device.submitAndWait([&](VkCommandBuffer commands) {
         parts_->resources.write(commands, inputs);
         bind(commands, pipeline, set);
         pushConstants(commands, pipeline, SamplePush{std::uint32_t(queries.size())});
         vkCmdDispatch(commands, std::uint32_t((queries.size() + 63) / 64), 1, 1);
+        download.record(commands, out);
     });
-    downloadBytes(device, out, std::as_writable_bytes(std::span(results)));
+    std::ranges::copy(download.bytes(), std::as_writable_bytes(std::span(results)).begin());
     return results;
 }
 
