@@ -17,6 +17,7 @@
 #include <glm/glm.hpp>
 
 #include "base/checks.h"
+#include "base/words.h"
 
 namespace relief {
 
