@@ -142,6 +142,7 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
     model_ = std::make_unique<Model>(*device_, ModelDesc{.surface = &loaded_.surface,
                                                          .cagePositions = loaded_.cage.positions,
                                                          .height = loaded_.heightMap(),
+                                                         .encoding = &loaded_.heightEncoding,
                                                          .dense = loaded_.dense ? &*loaded_.dense : nullptr,
                                                          .albedo = shading_.albedo ? &*shading_.albedo : nullptr});
     if (polygons_)
@@ -155,6 +156,7 @@ FrameMaker::FrameMaker(const AnimateArgs& args, const Output& output) : args_(ar
                                                    .keepsBefore = wantsMotion(picture_)});
     loaded_.surface = {}; // all of it is on the device now
     loaded_.height.reset();
+    loaded_.heightEncoding = {};
     loaded_.dense.reset();
     shading_.albedo.reset();
     malloc_trim(0);

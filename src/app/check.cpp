@@ -119,8 +119,10 @@ std::optional<Picture> checkPoints(Device& device, const Model& model, const Loa
 /// Writes the heat map when all else has gone well.
 Certificate certify(const CheckArgs& args, const Loaded& loaded) {
     Device device({.name = args.device});
-    const Model model(
-        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    const Model model(device, {.surface = &loaded.surface,
+                               .cagePositions = loaded.cage.positions,
+                               .height = loaded.heightMap(),
+                               .encoding = &loaded.heightEncoding});
     const std::vector<std::string> paths = pathsOf(args, device.traits());
     Progress progress("checking", 1 + paths.size(), args.output.progress);
 

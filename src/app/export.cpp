@@ -45,8 +45,10 @@ Exported dice(const ExportArgs& args) {
              args.surface.cage);
     progress.advance();
     Device device({.name = args.device});
-    Model model(device,
-                {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    Model model(device, {.surface = &loaded.surface,
+                         .cagePositions = loaded.cage.positions,
+                         .height = loaded.heightMap(),
+                         .encoding = &loaded.heightEncoding});
     const std::unique_ptr<Poser> poser = stretchHeights(device, model, loaded, args.heightSpace);
     progress.advance();
 

@@ -92,11 +92,12 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
     Model model(device, {.surface = &loaded.surface,
                          .cagePositions = loaded.cage.positions,
                          .height = loaded.heightMap(),
+                         .encoding = &loaded.heightEncoding,
                          .dense = loaded.dense ? &*loaded.dense : nullptr,
                          .albedo = shading.albedo ? &*shading.albedo : nullptr});
     const std::unique_ptr<Poser> poser = stretchHeights(device, model, loaded, args.picture.heightSpace);
     Drawn drawn{.device = device.traits().name,
-                .mapFormat = loaded.height ? wordOf(loaded.height->format) : "",
+                .mapFormat = loaded.height ? wordOf(kMapFormats, loaded.heightEncoding.format) : "",
                 .cageBytes = loaded.cage.byteCount(),
                 .mapBytes = model.heightBytes(),
                 .deviceBytes = model.byteCount(),

@@ -108,8 +108,10 @@ int sample(const SampleArgs& args) {
     if (loaded.dense)
         fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.surface.cage);
     Device device({.name = args.device});
-    const Model model(
-        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    const Model model(device, {.surface = &loaded.surface,
+                               .cagePositions = loaded.cage.positions,
+                               .height = loaded.heightMap(),
+                               .encoding = &loaded.heightEncoding});
     std::string text;
     try {
         text = sampledRows(device, model, queries, args, loaded.coordinates()).takeText();

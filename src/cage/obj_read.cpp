@@ -89,9 +89,7 @@ Cage buildArrays(ObjScan& scan, const std::string& name) {
 
 /// Vertices without a face, often at the origin, do not say where the cage is.
 Coordinates coordinatesOf(const Cage& cage, std::span<const dvec3> positions) {
-    Bounds bounds;
-    for (const std::uint32_t corner : cage.corners) bounds.add(positions[corner]);
-    return coordinatesFor(bounds);
+    return coordinatesFor(computeBounds(cage.corners, [&](std::uint32_t corner) { return positions[corner]; }));
 }
 
 } // namespace

@@ -18,7 +18,7 @@ void Renderer::Parts::makeTriangles(Frame& frame, FrameStats& stats) {
 void Renderer::Parts::makePlan(Frame& frame, FrameStats& stats) {
     const RenderOptions& o = frame.options;
     const std::vector<char> isVisible =
-        visibleFaces(frame.model, frame.scene.worldToClip, viewOf(o.camera, desc.height));
+        visibleFaces(frame.model, frame.scene.worldToClip, viewOf(o.camera, desc.height), frame.rates);
     const DrawPlan& plan = frame.plan =
         o.path == Path::grid
             ? planGrids(frame.model, frame.rates, isVisible)

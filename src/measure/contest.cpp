@@ -46,18 +46,20 @@ const Surface& Contest::surface(int isolation) {
     return surfaces_.emplace(isolation, buildSurface(subject_.cage, options)).first->second;
 }
 
-const HeightMap& Contest::map(int side, MapFormat format) {
+const EncodedMap& Contest::map(int side, MapFormat format) {
     const auto found = maps_.find({side, format});
     if (found != maps_.end()) return found->second;
-    HeightMap map = format == MapFormat::real ? resampled(subject_.height, side, rowsOf(side))
-                                              : inFormat(this->map(side, MapFormat::real), format);
+    EncodedMap map = format == MapFormat::real ? EncodedMap{resampled(subject_.height, side, rowsOf(side)), {}}
+                                               : encode(this->map(side, MapFormat::real).decoded, format);
     return maps_.emplace(std::pair(side, format), std::move(map)).first->second;
 }
 
 std::unique_ptr<Model> Contest::model(const Saving& saving) {
+    const EncodedMap& map = this->map(saving.side, saving.format);
     return std::make_unique<Model>(device_, ModelDesc{.surface = &surface(saving.isolation),
                                                       .cagePositions = subject_.cage.positions,
-                                                      .height = &map(saving.side, saving.format)});
+                                                      .height = &map.decoded,
+                                                      .encoding = &map.encoding});
 }
 
 DenseMesh Contest::meshOf(const Model& model, int rate) {
@@ -101,7 +103,7 @@ double Contest::heightRms() const {
 }
 
 double Contest::formatError(int side, MapFormat format) {
-    const HeightMap &from = map(side, MapFormat::real), &to = map(side, format);
+    const HeightMap &from = map(side, MapFormat::real).decoded, &to = map(side, format).decoded;
     double sum = 0;
     for (std::size_t i = 0; i < from.texels.size(); ++i) sum += std::pow(double(to.texels[i]) - from.texels[i], 2.0);
     return std::abs(from.scale) * std::sqrt(sum / double(from.texels.size())) / diagonal_;

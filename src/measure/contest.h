@@ -44,7 +44,7 @@ public:
     [[nodiscard]] double diagonal() const { return diagonal_; }
 
     const Surface& surface(int isolation);
-    const HeightMap& map(int side, MapFormat format);
+    const EncodedMap& map(int side, MapFormat format);
     std::unique_ptr<Model> model(const Saving& saving);
     DenseMesh mesh(const Saving& saving);
 
@@ -64,7 +64,7 @@ private:
     std::size_t sampleCount_;
     int referenceRate_ = 1, largestRate_ = 1;
     std::map<int, Surface> surfaces_;
-    std::map<std::pair<int, MapFormat>, HeightMap> maps_;
+    std::map<std::pair<int, MapFormat>, EncodedMap> maps_;
     DenseMesh meshOf(const Model& model, int rate);
     std::map<Saving, Judged> judged_;
     std::map<int, std::uint64_t> surfaceBytes_;

@@ -89,10 +89,13 @@ void Model::uploadSurface(Device& device, const ModelDesc& desc) {
     words_ = uploadWords(device, "tree", s.tree);
 
     const std::vector<vec3> refined = refinePoints(s, desc.cagePositions);
-    faceHeightBounds_ = relief::faceHeightBounds(s, desc.height, *heightPyramid_);
+    faceTexBoxes_ = relief::faceTexBoxes(s);
+    faceHeightBounds_ = relief::faceHeightBounds(*heightPyramid_, faceTexBoxes_);
     faceBounds_ = relief::faceBounds(s, refined, faceHeightBounds_);
-    if (enclosesVolume(s))
-        normalBounds_ = relief::normalBounds(s, refined, desc.height != nullptr ? heightPyramid_.get() : nullptr);
+    if (enclosesVolume(s)) {
+        faceNormals_ = relief::faceNormals(s, refined);
+        normalBounds_ = relief::normalBounds(faceNormals_, faceTexBoxes_, *heightPyramid_);
+    }
     std::vector<vec4> points;
     for (const vec3& p : refined) points.emplace_back(p, 1.0f);
     points_.texels =
@@ -144,18 +147,19 @@ void Model::uploadDense(Device& device, const DenseMesh& mesh) {
 void Model::uploadMaps(Device& device, const ModelDesc& desc) {
     if (desc.height != nullptr) {
         const HeightMap& map = *desc.height;
+        const MapEncoding asFloats;
+        const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         const std::uint64_t most = 4ull * device.traits().maxTexelBufferElements;
-        if (mapBytes(map.format, map.width, map.height) > most)
+        if (mapBytes(encoding.format, map.width, map.height) > most)
             fail(Failure::device, "a height map of {} x {} takes {} with its mips; {} reads {}", map.width, map.height,
-                 humanBytes(mapBytes(map.format, map.width, map.height)), device.traits().name, humanBytes(most));
-        const MapWords words = wordsOf(map);
+                 humanBytes(mapBytes(encoding.format, map.width, map.height)), device.traits().name, humanBytes(most));
+        const MapWords words = toWords(map, encoding);
         heights_ = uploadWords(device, "height map", words.words);
         mapFirsts_ = words.firsts;
         heightPyramid_ = std::make_unique<HeightPyramid>(map, words.roundOff);
-        mapFormat_ = map.format;
+        mapFormat_ = encoding.format;
         mapSize_ = {map.width, map.height};
-        const WordScale scale = wordScale(map);
-        heightMid_ = float(scale.mid), heightScale_ = float(scale.scale), heightBound_ = float(map.heightBound());
+        heightMid_ = float(words.mid), heightScale_ = float(words.scale), heightBound_ = float(map.heightBound());
         wrap_ = map.wrap;
     } else {
         heights_ = uploadWords(device, "no height map", {});
@@ -208,7 +212,7 @@ void Model::describe(Scene& scene, std::span<Binding> bindings) const {
 void Model::usePoints(PointSets points) {
     byteCount_ += points.texels.buffer.bytes - points_.texels.buffer.bytes;
     points_ = std::move(points);
-    normalBounds_.clear(); // of another pose
+    normalBounds_.clear(), faceNormals_.clear(); // of another pose
 }
 
 void Model::useFaceBounds(std::vector<Bounds> bounds) { faceBounds_ = std::move(bounds); }

@@ -18,12 +18,15 @@ struct ModelDesc {
     const Surface* surface = nullptr; ///< a subdivision surface with its posed cage points ...
     std::span<const vec3> cagePositions;
     const HeightMap* height = nullptr;
-    const DenseMesh* dense = nullptr; ///< ... or a dense mesh
-    const Image* albedo = nullptr;    ///< 3 or more channels, sRGB-encoded values 0..1
+    const MapEncoding* encoding = nullptr; ///< of `height`; null: 32-bit floats
+    const DenseMesh* dense = nullptr;      ///< ... or a dense mesh
+    const Image* albedo = nullptr;         ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
 class HeightPyramid;
+struct FaceNormals;
 struct NormalBounds;
+struct TexBox;
 
 /// Points that patches are made of, one pose after another in a texel buffer: where each begins.
 struct PointSets {
@@ -59,9 +62,13 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& tree() const { return tree_; } ///< as Surface::tree
     /// Bounds of the normals of displaced faces; empty unless the surface is closed and oriented.
     [[nodiscard]] const std::vector<NormalBounds>& normalBounds() const { return normalBounds_; }
-    /// Boxes around displaced faces; empty ones for holes.
+    /// What bounds of normals are made of for heights of other mip levels; empty as normalBounds is.
+    [[nodiscard]] const std::vector<FaceNormals>& faceNormals() const { return faceNormals_; }
+    /// Texture coordinates of faces.
+    [[nodiscard]] const std::vector<TexBox>& faceTexBoxes() const { return faceTexBoxes_; }
+    /// Boxes around faces displaced by level 0 of the height map; empty ones for holes.
     [[nodiscard]] const std::vector<Bounds>& faceBounds() const { return faceBounds_; }
-    /// Largest |h| on each face, cage units.
+    /// Largest |h| on each face in level 0 of the height map, cage units.
     [[nodiscard]] const std::vector<float>& faceHeightBounds() const { return faceHeightBounds_; }
     /// Whether heights grow with the surface since a rest pose.
     [[nodiscard]] bool stretches() const { return points_.rest.has_value(); }
@@ -105,6 +112,8 @@ private:
     std::vector<Bounds> faceBounds_;
     std::vector<float> faceHeightBounds_;
     std::vector<NormalBounds> normalBounds_;
+    std::vector<FaceNormals> faceNormals_;
+    std::vector<TexBox> faceTexBoxes_;
     std::vector<std::uint32_t> mapFirsts_; ///< where the words of each level begin
     std::vector<bool> edgeIsHalf_, patchIsRegular_;
     std::vector<std::uint32_t> cornerFlags_;
