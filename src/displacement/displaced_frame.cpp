@@ -115,7 +115,7 @@ DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* 
     const TexFrame tex = surface.texture(face, uv);
     DisplacedFrame frame;
     frame.limit = surface.limit(face, uv);
-    frame.st = tex.st;
+    frame.tex = tex;
     frame.normal = frame.firstOrder = frame.full = surface.normal(face, uv);
     if (map != nullptr) frame.height = sampleHeight(*map, tex.st);
 

@@ -151,7 +151,7 @@ DisplacedNormals computeDisplacedNormals(const LimitFrame& frame, double h, cons
 /// A point of the displaced surface with its three unit normals.
 struct DisplacedFrame {
     LimitFrame limit;
-    dvec2 st{0};
+    TexFrame tex;
     HeightSample height;
     dvec3 normal{0}; ///< limit normal n
     dvec3 q{0};      ///< p + h n
