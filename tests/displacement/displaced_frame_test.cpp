@@ -124,7 +124,7 @@ TEST(DisplacedFrames, OfAPlaneNeedNoCurvature) {
         EXPECT_LE(degreesBetween(frame.full, frame.firstOrder), 1e-6);
         // The grid is 3 long in x and -z for one of s and t; y is up.
         EXPECT_LE(degreesBetween(frame.full, dvec3(-frame.height.hs / 3, 1, frame.height.ht / 3)), 1e-3);
-        const double expected = 0.3 * std::sin(2 * kPi * frame.st.x) * std::cos(2 * kPi * frame.st.y);
+        const double expected = 0.3 * std::sin(2 * kPi * frame.tex.st.x) * std::cos(2 * kPi * frame.tex.st.y);
         EXPECT_NEAR(frame.height.h, expected, 1e-5);
     }
 }
