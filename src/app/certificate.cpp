@@ -54,6 +54,8 @@ json ofError(const ErrorSummary& error) {
 json ofRegion(const RegionErrors& errors) {
     return {{"points", errors.count},
             {"points_without_normal", errors.countWithoutNormal},
+            {"misplaced_points", errors.countMisplaced},
+            {"misturned_normals", errors.countMisturned},
             {"point", ofError(errors.point)},
             {"tangents", ofError(errors.tangent)},
             {"limit_normal_degrees", ofError(errors.limitNormal)},
