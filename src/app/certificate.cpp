@@ -178,7 +178,7 @@ std::vector<std::string> Certificate::brokenPromises() const {
             broken.push_back(fmt::format("{} of {} {}", count, regular.count - regular.countWithoutNormal, what));
     };
     checkShare(regular.countMisplaced, "displaced points are not p + h n");
-    checkShare(regular.countMisturned, "displaced normals are off by more than a degree");
+    checkShare(regular.countMisturned, "displaced normals are off by more than 0.1 degrees");
     if (corners.max > promises.cornerDegrees)
         broken.push_back(fmt::format("the normal at {} is off by {:.3g} degrees from those beside it, more than {}",
                                      words(corners.worst), corners.max, promises.cornerDegrees));

@@ -106,7 +106,7 @@ struct SampleError {
     // The device's displacement against that of the reference, for the device's own height and slopes: rough maps and
     // texture coordinates of few digits do not count as errors of it.
     bool isMisplaced = false; ///< q is farther from p + h n than 1e-6 of the diagonal and 1 % of |h|
-    bool isMisturned = false; ///< the displaced normal is off by more than a degree; by more where its terms cancel
+    bool isMisturned = false; ///< the displaced normal is off by more than 0.1 degrees; by more where its terms cancel
 };
 
 /// Compares the device's answers with the reference: `results[i]` is the answer to `queries[i]`.

@@ -35,7 +35,7 @@ double farther(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 /// The reference's frame displaced by the device's own height, against what the device has made of it.
 void checkDisplacement(SampleError& error, const DisplacedFrame& frame, const SampleResult& r,
                        const FrameComparison& with) {
-    constexpr double kPoint = 1e-6, kShareOfHeight = 1e-2, kDegrees = 1;
+    constexpr double kPoint = 1e-6, kShareOfHeight = 1e-2, kDegrees = 0.1;
     const double h = r.h;
     const double distance = glm::length(frame.limit.p + h * frame.normal - dvec3(r.q));
     error.isMisplaced = !(distance <= kPoint * with.diagonal + kShareOfHeight * std::abs(h));
