@@ -10,9 +10,6 @@
 
 namespace relief::test {
 
-inline constexpr MapFormat kMapFormats[] = {MapFormat::real, MapFormat::half, MapFormat::unorm16, MapFormat::unorm8,
-                                            MapFormat::bc4};
-
 /// Waves of no period, from -0.5 to 0.5, about a mid of 0.1.
 inline HeightMap waves(int width, int height) {
     std::vector<float> texels;
@@ -22,7 +19,9 @@ inline HeightMap waves(int width, int height) {
 }
 
 /// A level of the map as a map of its own, read texel by texel from the words.
-inline HeightMap levelOf(const HeightMap& map, const MapWords& words, std::uint32_t level) {
+inline HeightMap levelOf(const EncodedMap& encoded, const MapWords& words, std::uint32_t level) {
+    const HeightMap& map = encoded.decoded;
+    const auto& [format, base, range, blocks] = encoded.encoding;
     const int width = std::max(map.width >> level, 1), height = std::max(map.height >> level, 1);
     const std::uint32_t* first = &words.words[words.firsts[level]];
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(first);
@@ -32,14 +31,14 @@ inline HeightMap levelOf(const HeightMap& map, const MapWords& words, std::uint3
             const auto i = std::size_t(y * width + x), block = std::size_t(y / 4 * ((width + 3) / 4) + x / 4);
             const auto pair = [&] { return std::uint32_t(bytes[2 * i] | bytes[2 * i + 1] << 8); };
             float value = 0;
-            switch (map.format) {
+            switch (format) {
             case MapFormat::real: value = std::bit_cast<float>(first[i]); break;
             case MapFormat::half: value = glm::unpackHalf1x16(std::uint16_t(pair())); break;
-            case MapFormat::unorm16: value = map.base + map.range * float(pair()) / 65535; break;
-            case MapFormat::unorm8: value = map.base + map.range * float(bytes[i]) / 255; break;
+            case MapFormat::unorm16: value = base + range * float(pair()) / 65535; break;
+            case MapFormat::unorm8: value = base + range * float(bytes[i]) / 255; break;
             case MapFormat::bc4:
-                value = map.base + map.range * decodeBc4(std::span<const std::uint8_t, 8>(bytes + 8 * block,
-                                                                                          8))[y % 4 * 4 + x % 4];
+                value =
+                    base + range * decodeBc4(std::span<const std::uint8_t, 8>(bytes + 8 * block, 8))[y % 4 * 4 + x % 4];
             }
             texels.push_back(value);
         }

@@ -45,7 +45,11 @@ RELIEF_SHARED_FUNCTION real3 firstOrderNormal(real3 n, real3 pu, real3 pv, real2
 
 // q_u = p_u + h_u n + h n_u  (Lee, Moreton, Hoppe 2000, section 3); m = q_u x q_v.
 RELIEF_SHARED_FUNCTION real3 displacedTangent(real3 pu, real3 n, real3 nu, real h, real hu) {
+#if defined(RELIEF_MUTANT_FORMULA) && !defined(__cplusplus) // a test of the certificate: h n_u is missing
+    return pu + hu * n;
+#else
     return pu + hu * n + h * nu;
+#endif
 }
 
 // Heights that stretch with the surface are sigma h with sigma = sqrt(A / A0), A = |p_u x p_v| here and A0 at rest; then

@@ -12,8 +12,8 @@ public:
           faceSizes_(cage.faceSizes), corners_(cage.corners) {
         // A sequence of another cage is refused at once.
         const Cage first = parse(0, {});
-        Bounds bounds;
-        for (const vec3& p : first.positions) bounds.add(first.coordinates.toWorld(p));
+        const Bounds bounds =
+            computeBounds(first.positions, [&](const vec3& p) { return first.coordinates.toWorld(dvec3(p)); });
         coordinates_ = keyCoordinates(cage.coordinates, bounds);
     }
 

@@ -122,7 +122,8 @@ const std::vector<DeformerKind>& deformerKinds() {
          .values = {axis("axis", "y"), number("angle", "90"), axis("toward", "next")},
          .make = bend},
         {.name = "wave",
-         .help = "a sine along the axis that travels along another; lengths (speed: a second) in longest sides",
+         .help = "displaces along `axis` by a sine that travels along `along`; lengths in longest sides of the box, "
+                 "speed per second",
          .values = {axis("axis", "y"), number("amplitude", "0.05"),
                     ValueKind{.name = "wavelength", .standard = "0.5", .above = 0}, number("speed", "0.25"),
                     axis("along", "next")},
@@ -137,7 +138,7 @@ const std::vector<DeformerKind>& deformerKinds() {
          .values = {axis("axis", "y"), number("amount", "0.5")},
          .make = taper},
         {.name = "translate",
-         .help = "moves by so many longest sides",
+         .help = "moves by these multiples of the longest side of the box",
          .values = {number("x", "0"), number("y", "0"), number("z", "0")},
          .make = translate},
         {.name = "rotate",

@@ -134,16 +134,14 @@ void checkExact(const Match& match, const Cage& cage, double tolerance, const st
 
 Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Source>& sources, bool bindsNearest,
                 const std::string& path) {
-    Bounds bounds;
-    for (const vec3& p : cage.positions) bounds.add(dvec3(p));
-    const double tolerance = kTolerance * bounds.diagonal();
+    const double tolerance = kTolerance * computeBounds(cage.positions).diagonal();
     const std::vector<dvec3> places = restPlaces(scene, cage, sources, path);
     const std::vector<dvec3> rounded = asFloats(places);
     if (std::optional<Match> own = matchOwn(cage, sources, rounded)) return *own;
     Match atRest = matchNearest(cage, rounded, true);
     if (atRest.largestDistance() <= tolerance) return atRest;
     Match inMeshes = matchNearest(cage, meshPlaces(cage, sources), false);
-    for (const std::uint32_t source : inMeshes.sources) inMeshes.bounds.add(places[source]);
+    inMeshes.bounds = computeBounds(inMeshes.sources, [&](std::uint32_t source) { return places[source]; });
     if (inMeshes.largestDistance() <= tolerance) return inMeshes;
     if (!bindsNearest) checkExact(atRest, cage, tolerance, path);
     return atRest;
@@ -164,9 +162,8 @@ class Binder {
 public:
     Binder(const GltfScene& scene, const std::vector<Source>& sources, const Match& match, const std::string& path)
         : scene_(scene), sources_(sources), match_(match), path_(path) {
-        Bounds bounds;
-        for (const std::uint32_t source : match_.sources) bounds.add(positionOf(source));
-        binding_.rest = coordinatesFor(bounds);
+        binding_.rest = coordinatesFor(
+            computeBounds(match_.sources, [&](std::uint32_t source) { return positionOf(source); }));
     }
 
     /// Joints, weights and morph offsets; rest is the vertices' own.

@@ -57,7 +57,8 @@ std::vector<Subject> subjectsOf(const BenchArgs& args) {
     if (loaded.dense)
         fail(Failure::usage, "{}: only a subdivision surface is measured; name its --scheme", args.surface.cage);
     const std::string name = std::filesystem::path(args.surface.cage).stem().string();
-    return {{name, std::move(loaded.cage), loaded.options, std::move(*loaded.height)}};
+    return {
+        {name, std::move(loaded.cage), loaded.options, std::move(*loaded.height), std::move(loaded.heightEncoding)}};
 }
 
 void checkUsage(const BenchArgs& args) {

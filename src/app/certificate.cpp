@@ -54,6 +54,8 @@ json ofError(const ErrorSummary& error) {
 json ofRegion(const RegionErrors& errors) {
     return {{"points", errors.count},
             {"points_without_normal", errors.countWithoutNormal},
+            {"misplaced_points", errors.countMisplaced},
+            {"misturned_normals", errors.countMisturned},
             {"point", ofError(errors.point)},
             {"tangents", ofError(errors.tangent)},
             {"limit_normal_degrees", ofError(errors.limitNormal)},
@@ -170,6 +172,13 @@ std::vector<std::string> Certificate::brokenPromises() const {
     };
     check(frames.regular.point, promises.point, "points");
     check(frames.regular.tangent, promises.tangent, "tangents");
+    const RegionErrors& regular = frames.regular;
+    const auto checkShare = [&](std::uint64_t count, const char* what) {
+        if (double(count) > promises.wrongShare * double(regular.count - regular.countWithoutNormal))
+            broken.push_back(fmt::format("{} of {} {}", count, regular.count - regular.countWithoutNormal, what));
+    };
+    checkShare(regular.countMisplaced, "displaced points are not p + h n");
+    checkShare(regular.countMisturned, "displaced normals are off by more than 0.1 degrees");
     if (corners.max > promises.cornerDegrees)
         broken.push_back(fmt::format("the normal at {} is off by {:.3g} degrees from those beside it, more than {}",
                                      words(corners.worst), corners.max, promises.cornerDegrees));

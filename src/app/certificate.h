@@ -20,6 +20,7 @@ struct PathReport {
 /// corners.
 struct Promises {
     double point = 1e-6, tangent = 1e-5;
+    double wrongShare = 0.01;  ///< of points that are displaced wrongly (SampleError::isMisplaced and isMisturned)
     double cornerDegrees = 15; ///< see CornerReport; in corners the surface itself turns by a few degrees
 };
 Promises promisesAt(int isolation);

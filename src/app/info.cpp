@@ -121,7 +121,7 @@ json ofPicture(const std::string& path) {
                 {"layers", layers.size() > 1 ? json(layers) : json::array()},
                 {"bytes", std::uint64_t(info.width) * info.height * info.channels * info.sampleBytes},
                 {"default_mid", info.hasUnit() ? 0.0 : 0.5},
-                {"map_format", wordOf(format)},
+                {"map_format", wordOf(kMapFormats, format)},
                 {"map_bytes", mapBytes(format, info.width, info.height)}};
     if (info.noData) result["no_data"] = fmt::format("{}", *info.noData);
     result.update(ofTexels(path, info));

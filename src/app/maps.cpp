@@ -6,16 +6,10 @@
 namespace relief::app {
 namespace {
 
-constexpr std::pair<const char*, MapFormat> kMapFormats[] = {{"float", MapFormat::real},
-                                                             {"half", MapFormat::half},
-                                                             {"unorm16", MapFormat::unorm16},
-                                                             {"unorm8", MapFormat::unorm8},
-                                                             {"bc4", MapFormat::bc4}};
-
 /// Nothing for auto.
 std::optional<MapFormat> mapFormatOf(const std::string& word) {
-    for (const auto& [name, format] : kMapFormats)
-        if (word == name) return format;
+    for (const Word<MapFormat>& row : kMapFormats)
+        if (word == row.word) return row.value;
     return {};
 }
 
@@ -38,7 +32,7 @@ Image loadAlbedo(const std::string& path, const Warn& warn) {
         warn(fmt::format("{}: there are {} layers; the colors are channels {}, {} and {}, the first ones", path,
                          layers.size(), info.channelNames[0], info.channelNames[1], info.channelNames[2]));
     Image image = readImage(path);
-    if (const std::optional<TexelPlace> bad = findNotFinite(image))
+    if (const std::optional<BadTexel> bad = findNotFinite(image))
         fail(Failure::input,
              "{}: channel {} of the texel in column {}, row {} (from 0, top left) is {}; colors are finite numbers",
              path, info.channelNames[std::size_t(bad->channel)], bad->x, bad->y, bad->value);
@@ -50,10 +44,6 @@ Image loadAlbedo(const std::string& path, const Warn& warn) {
 }
 
 } // namespace
-
-std::string wordOf(MapFormat format) {
-    return std::ranges::find(kMapFormats, format, &std::pair<const char*, MapFormat>::second)->first;
-}
 
 void warnOutsideMap(const SurfaceArgs& args, const Cage& cage, const std::string& map, const Warn& warn) {
     constexpr float kRounding = 1e-4f; // of programs that write texture coordinates with a few digits
@@ -67,16 +57,16 @@ void warnOutsideMap(const SurfaceArgs& args, const Cage& cage, const std::string
                      args.cage, lower.x, lower.y, upper.x, upper.y, map));
 }
 
-std::optional<HeightMap> loadHeights(const SurfaceArgs& args, const Cage& cage, const Warn& warn) {
+std::optional<EncodedMap> loadHeights(const SurfaceArgs& args, const Cage& cage, const Warn& warn) {
     if (args.height.empty()) return {};
-    HeightMap map = loadHeightMap(args.height,
-                                  {.mid = args.mid,
-                                   .scale = args.scale,
-                                   .channel = args.channel,
-                                   .wrap = args.wrap == "clamp" ? Wrap::clamp : Wrap::repeat,
-                                   .format = mapFormatOf(args.mapFormat),
-                                   .limits = {}},
-                                  warn);
+    EncodedMap map = loadHeightMap(args.height,
+                                   {.mid = args.mid,
+                                    .scale = args.scale,
+                                    .channel = args.channel,
+                                    .wrap = args.wrap == "clamp" ? Wrap::clamp : Wrap::repeat,
+                                    .format = mapFormatOf(args.mapFormat),
+                                    .limits = {}},
+                                   warn);
     if (!cage.hasTexCoords())
         warn(fmt::format("{}: no texture coordinates: every face takes the whole map", args.cage));
     warnOutsideMap(args, cage, args.height, warn);

@@ -314,7 +314,8 @@ Loaded load(const SurfaceArgs& args, const Output& output, const std::string& al
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
              "catmark, loop or bilinear",
              args.cage);
-    loaded.height = loadHeights(args, loaded.cage, output.warn());
+    if (std::optional<EncodedMap> map = loadHeights(args, loaded.cage, output.warn()))
+        loaded.height = std::move(map->decoded), loaded.heightEncoding = std::move(map->encoding);
     if (loaded.height) suitHeights(loaded, output.warn());
     loaded.animation = animationOf(args.pose, loaded.cage, output); // the unit is known now
     weldLoaded(loaded, args.weld);

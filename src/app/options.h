@@ -124,7 +124,8 @@ struct Loaded {
     std::vector<vec3> restPositions;      ///< of the cage, where --time has moved it
     std::optional<DenseMesh> dense;       ///< instead of a surface, where no scheme applies
     Surface surface;
-    std::optional<HeightMap> height;
+    std::optional<HeightMap> height; ///< as the device reads it
+    MapEncoding heightEncoding;      ///< how the device stores it
     SurfaceOptions options;
     double loadSeconds = 0, surfaceSeconds = 0;
 
@@ -135,7 +136,7 @@ struct Loaded {
     }
 };
 /// The map of --height, or nothing. Warns where it repeats unasked, and of a cage without texture coordinates.
-std::optional<HeightMap> loadHeights(const SurfaceArgs& args, const Cage& cage, const Warn& warn);
+std::optional<EncodedMap> loadHeights(const SurfaceArgs& args, const Cage& cage, const Warn& warn);
 /// Warns where the cage's texture coordinates leave the unit square and --wrap does not say what the map is there.
 void warnOutsideMap(const SurfaceArgs& args, const Cage& cage, const std::string& map, const Warn& warn);
 /// What moves the cage, or null.
@@ -167,8 +168,6 @@ void holdCamera(CameraArgs& camera, std::span<const dvec3> points, bool isTurn);
 /// rest.
 std::unique_ptr<Poser> stretchHeights(Device& device, SurfaceModel* model, const Loaded& loaded,
                                       const std::string& heightSpace);
-/// As --map-format says it.
-std::string wordOf(MapFormat format);
 HeightSpace heightSpaceOf(const std::string& word);
 
 /// Throws when the validation layer (RELIEF_VALIDATE=1) complained.

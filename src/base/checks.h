@@ -75,8 +75,7 @@ struct Decomposer {
 #define RELIEF_CHECK(...)                                                                                              \
     do {                                                                                                               \
         _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wparentheses\"")                             \
-        const ::relief::checks::Outcome reliefOutcome = ::relief::checks::Decomposer() <= __VA_ARGS__;                 \
-        _Pragma("GCC diagnostic pop")                                                                                  \
-        if (!reliefOutcome.holds)                                                                                      \
-            ::relief::checks::failCheck(__FILE__, __LINE__, #__VA_ARGS__, reliefOutcome.operands);                     \
+            const ::relief::checks::Outcome reliefOutcome = ::relief::checks::Decomposer() <= __VA_ARGS__;             \
+        _Pragma("GCC diagnostic pop") if (!reliefOutcome.holds)::relief::checks::failCheck(                            \
+            __FILE__, __LINE__, #__VA_ARGS__, reliefOutcome.operands);                                                 \
     } while (false)

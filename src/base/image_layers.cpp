@@ -23,12 +23,12 @@ bool isNamed(const ImagePart& part, const std::string& channel, std::string_view
 
 } // namespace
 
-std::optional<ChannelPlace> findChannel(const ImageInfo& info, std::string_view word) {
+std::optional<ChannelIndex> findChannel(const ImageInfo& info, std::string_view word) {
     for (const bool byLayer : {false, true})
         for (std::size_t p = 0; p < info.parts.size(); ++p) {
             const std::vector<std::string>& names = info.parts[p].channelNames;
             for (std::size_t c = 0; c < names.size(); ++c)
-                if (isNamed(info.parts[p], names[c], word, byLayer)) return ChannelPlace{int(p), int(c)};
+                if (isNamed(info.parts[p], names[c], word, byLayer)) return ChannelIndex{int(p), int(c)};
         }
     int number = -1;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
@@ -36,7 +36,7 @@ std::optional<ChannelPlace> findChannel(const ImageInfo& info, std::string_view 
     if (!isNumber || number < 0) return {};
     for (std::size_t p = 0; p < info.parts.size(); ++p) { // numbers count through all parts
         const int count = int(info.parts[p].channelNames.size());
-        if (number < count) return ChannelPlace{int(p), number};
+        if (number < count) return ChannelIndex{int(p), number};
         number -= count;
     }
     return {};
@@ -54,11 +54,11 @@ std::vector<std::string> layersOf(const ImageInfo& info) {
     return layers;
 }
 
-std::optional<TexelPlace> findNotFinite(const Image& image) {
+std::optional<BadTexel> findNotFinite(const Image& image) {
     const auto bad = std::ranges::find_if(image.texels, [](float texel) { return !std::isfinite(texel); });
     if (bad == image.texels.end()) return {};
     const auto index = std::size_t(bad - image.texels.begin()), texel = index / std::size_t(image.channels);
-    return TexelPlace{int(texel % std::size_t(image.width)), int(texel / std::size_t(image.width)),
+    return BadTexel{int(texel % std::size_t(image.width)), int(texel / std::size_t(image.width)),
                       int(index % std::size_t(image.channels)), *bad};
 }
 

@@ -67,12 +67,14 @@ Cage buildArrays(ObjScan& scan, const std::string& name) {
                     .positionCount = 0,
                     .name = "",
                     .material = ""};
+    // The scan has counted everything: each array is allocated once.
     Cage& cage = builder.cage;
     cage.faceSizes.reserve(scan.faceCount);
     cage.corners.reserve(scan.cornerCount);
     cage.texCoords.reserve(scan.texCoordCount);
     if (scan.hasTexCoords) cage.texCorners.reserve(scan.cornerCount);
 
+    // tinyobjloader must find what the scan has found, or line numbers in messages would be wrong.
     std::istringstream stream(std::move(scan.text));
     tinyobj::LoadObjWithCallback(stream, makeCallbacks(), &builder);
     if (builder.positionCount != scan.vertexCount || cage.texCoords.size() != scan.texCoordCount ||
@@ -80,6 +82,7 @@ Cage buildArrays(ObjScan& scan, const std::string& name) {
         fail(Failure::internal, "{}: tinyobjloader read {} vertices and {} faces of {} and {}", name,
              builder.positionCount, cage.faceCount(), scan.vertexCount, scan.faceCount);
 
+    // Values that only some faces name are dropped; a single part without a name says nothing.
     if (!scan.hasTexCoords) cage.texCoords.clear();
     if (!scan.hasNormals) cage.normals.clear();
     const bool isOneNamelessPart = cage.parts.size() == 1 && builder.name.empty() && builder.material.empty();
@@ -89,9 +92,7 @@ Cage buildArrays(ObjScan& scan, const std::string& name) {
 
 /// Vertices without a face, often at the origin, do not say where the cage is.
 Coordinates coordinatesOf(const Cage& cage, std::span<const dvec3> positions) {
-    Bounds bounds;
-    for (const std::uint32_t corner : cage.corners) bounds.add(positions[corner]);
-    return coordinatesFor(bounds);
+    return coordinatesFor(computeBounds(cage.corners, [&](std::uint32_t corner) { return positions[corner]; }));
 }
 
 } // namespace

@@ -4,7 +4,6 @@
 
 #include "check/angles.h"
 #include "check/check.h"
-#include "shared/displacement.h"
 
 namespace relief {
 namespace {
@@ -17,20 +16,6 @@ LimitFrame frameOf(const SampleResult& r) {
             .puv = dvec3(r.puv),
             .pvv = dvec3(r.pvv)};
 }
-
-/// Unit normal, its derivatives, and the area of the parallelogram of p_u and p_v.
-struct NormalFrame {
-    dvec3 n, nu, nv;
-    double area;
-
-    explicit NormalFrame(const LimitFrame& f) {
-        const dvec3 c = glm::cross(f.pu, f.pv);
-        area = glm::length(c);
-        n = c / area;
-        nu = formulas::normalDerivative(n, area, f.pu, f.pv, f.puu, f.puv);
-        nv = formulas::normalDerivative(n, area, f.pu, f.pv, f.puv, f.pvv);
-    }
-};
 
 /// Eigenvalues of I^-1 II with I = dP.dP and II = dn.dP (do Carmo, section 3.3, with the sign of dn turned).
 Curvatures curvaturesOf(const LimitFrame& f, const NormalFrame& normal) {
@@ -50,20 +35,18 @@ double foldFactorOf(const LimitFrame& f, const NormalFrame& normal, double h) {
 }
 
 /// Degrees between the full and the first-order normal of the displaced surface.
-double normalAngle(const LimitFrame& f, const NormalFrame& normal, const SampleResult& r) {
-    const dvec2 dh = formulas::heightGradient(dvec2(r.gradient), dmat2(dvec2(r.stu), dvec2(r.stv)));
-    const double h = r.h;
-    const dvec3 first = formulas::firstOrderNormal(normal.n, f.pu, f.pv, dh);
-    const dvec3 full = glm::cross(formulas::displacedTangent(f.pu, normal.n, normal.nu, h, dh.x),
-                                  formulas::displacedTangent(f.pv, normal.n, normal.nv, h, dh.y));
-    return degreesBetween(first, full);
+double normalAngle(const LimitFrame& f, const SampleResult& r) {
+    const dvec2 slope(r.gradient), stu(r.stu), stv(r.stv);
+    const dvec2 dh(slope.x * stu.x + slope.y * stu.y, slope.x * stv.x + slope.y * stv.y);
+    const DisplacedNormals normals = computeDisplacedNormals(f, r.h, dh);
+    return degreesBetween(normals.firstOrder, normals.full);
 }
 
 /// Sums angle times area into meanNormalAngle.
 void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& r, double weight) {
     const LimitFrame frame = frameOf(r);
-    const NormalFrame normal(frame);
-    const double factor = foldFactorOf(frame, normal, r.h), angle = normalAngle(frame, normal, r);
+    const NormalFrame normal = computeNormalFrame(frame);
+    const double factor = foldFactorOf(frame, normal, r.h), angle = normalAngle(frame, r);
     if (!frame.hasTangentPlane() || !std::isfinite(factor + angle + normal.area)) {
         ++report.countWithoutCurvature;
         return;
@@ -79,11 +62,11 @@ void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& 
 
 } // namespace
 
-Curvatures principalCurvatures(const LimitFrame& frame) { return curvaturesOf(frame, NormalFrame(frame)); }
+Curvatures principalCurvatures(const LimitFrame& frame) { return curvaturesOf(frame, computeNormalFrame(frame)); }
 
 double foldFactor(const SampleResult& result) {
     const LimitFrame frame = frameOf(result);
-    return foldFactorOf(frame, NormalFrame(frame), result.h);
+    return foldFactorOf(frame, computeNormalFrame(frame), result.h);
 }
 
 CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results) {

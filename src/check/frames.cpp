@@ -32,6 +32,30 @@ const dvec3& normalOf(const DisplacedFrame& frame, NormalKind kind) {
 
 double farther(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
+/// The reference's frame displaced by the device's own height, against what the device has made of it.
+void checkDisplacement(SampleError& error, const DisplacedFrame& frame, const SampleResult& r,
+                       const FrameComparison& with) {
+    constexpr double kPoint = 1e-6, kShareOfHeight = 1e-2, kDegrees = 0.1;
+    const double h = r.h;
+    const double distance = glm::length(frame.limit.p + h * frame.normal - dvec3(r.q));
+    error.isMisplaced = !(distance <= kPoint * with.diagonal + kShareOfHeight * std::abs(h));
+
+    // h_u = h_s s_u + h_t t_u, and h_v likewise.
+    const dvec2 slope(r.gradient), stu = frame.tex.jacobian[0], stv = frame.tex.jacobian[1];
+    const dvec2 dh(slope.x * stu.x + slope.y * stu.y, slope.x * stv.x + slope.y * stv.y);
+    const DisplacedNormals normals = computeDisplacedNormals(frame.limit, h, dh);
+    const dvec3 expected = with.normal == NormalKind::limit        ? frame.normal
+                           : with.normal == NormalKind::firstOrder ? normals.firstOrder
+                                                                   : normals.full;
+
+    // Where q_u and q_v are much shorter than their terms, or nearly parallel, rounding turns their product.
+    const NormalFrame n = computeNormalFrame(frame.limit);
+    const double terms = (glm::length(frame.limit.pu) + std::abs(dh.x) + std::abs(h) * glm::length(n.nu)) *
+                         (glm::length(frame.limit.pv) + std::abs(dh.y) + std::abs(h) * glm::length(n.nv));
+    const double certainty = with.normal == NormalKind::limit ? 1 : std::min(glm::length(expected) / terms, 1.0);
+    error.isMisturned = !(certainty * degreesBetween(expected, dvec3(r.m)) <= kDegrees);
+}
+
 SampleError errorOf(const FrameComparison& with, const SampleQuery& query, const SampleResult& result) {
     const DisplacedFrame frame = displacedFrame(*with.reference, with.height, int(query.face), dvec2(query.uv));
     const auto distance = [&](const dvec3& a, const vec3& b) { return glm::length(a - dvec3(b)) / with.diagonal; };
@@ -42,6 +66,7 @@ SampleError errorOf(const FrameComparison& with, const SampleQuery& query, const
     error.tangent = farther(distance(frame.limit.pu, result.pu), distance(frame.limit.pv, result.pv));
     error.limitNormal = degreesBetween(frame.normal, dvec3(result.n));
     error.normal = degreesBetween(normalOf(frame, with.normal), dvec3(result.m));
+    checkDisplacement(error, frame, result, with);
     return error;
 }
 
@@ -55,6 +80,8 @@ void add(RegionErrors& errors, const SampleError& error, const SurfacePlace& pla
     add(errors.tangent, error.tangent, place);
     add(errors.limitNormal, error.limitNormal, place);
     add(errors.normal, error.normal, place);
+    errors.countMisplaced += error.isMisplaced ? 1 : 0;
+    errors.countMisturned += error.isMisturned ? 1 : 0;
 }
 
 } // namespace

@@ -28,7 +28,8 @@ public:
 
 private:
     [[nodiscard]] dvec2 pointOf(const Incidence& incidence, double t) const {
-        return sidePoint(surface_.sideCount, int(incidence.side), std::lerp(double(incidence.start), double(incidence.end), t));
+        return sidePoint(surface_.sideCount, int(incidence.side),
+                         std::lerp(double(incidence.start), double(incidence.end), t));
     }
     [[nodiscard]] dvec2 textureOf(const Incidence& incidence, double t) const {
         return reference_.texture(int(incidence.face), pointOf(incidence, t)).st;
@@ -68,7 +69,9 @@ private:
 
     [[nodiscard]] double lengthOf(const Incidence& incidence) const {
         constexpr int kPieces = 4;
-        const auto at = [&](int i) { return reference_.limit(int(incidence.face), pointOf(incidence, double(i) / kPieces)).p; };
+        const auto at = [&](int i) {
+            return reference_.limit(int(incidence.face), pointOf(incidence, double(i) / kPieces)).p;
+        };
         double length = 0;
         for (int i = 0; i < kPieces; ++i) length += glm::length(at(i + 1) - at(i));
         return length;

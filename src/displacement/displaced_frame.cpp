@@ -1,12 +1,72 @@
-// The displaced surface at one point in double precision: the oracle for the shaders.
+// The displaced surface at one point in double precision: the reference that the shaders are compared with.
+//
+// It shares no formula with the shaders (shaders/shared/displacement.h), so that an error in theirs shows. Points are
+// written down as q = p + sigma h n alone; every derivative comes from forward-mode automatic differentiation (Griewank
+// and Walther 2008, "Evaluating Derivatives", section 3.1).
 #include <algorithm>
 #include <cmath>
 
 #include "displacement/displacement.h"
-#include "shared/displacement.h"
 
 namespace relief {
 namespace {
+
+/// A number or vector that varies over a face, with its derivatives by u and v.
+template <typename T>
+struct Dual {
+    T value{0}, u{0}, v{0};
+};
+using DualNumber = Dual<double>;
+using DualVector = Dual<dvec3>;
+
+/// A bilinear product: (a b)_u = a_u b + a b_u.
+template <typename Multiply, typename A, typename B>
+auto multiply(const Multiply& product, const Dual<A>& a, const Dual<B>& b) {
+    using T = decltype(product(a.value, b.value));
+    return Dual<T>{product(a.value, b.value), product(a.u, b.value) + product(a.value, b.u),
+                   product(a.v, b.value) + product(a.value, b.v)};
+}
+
+DualNumber operator*(const DualNumber& a, const DualNumber& b) { return multiply(std::multiplies<>(), a, b); }
+DualVector operator*(const DualNumber& a, const DualVector& b) { return multiply(std::multiplies<>(), a, b); }
+DualVector operator+(const DualVector& a, const DualVector& b) { return {a.value + b.value, a.u + b.u, a.v + b.v}; }
+
+DualVector cross(const DualVector& a, const DualVector& b) {
+    return multiply([](const dvec3& x, const dvec3& y) { return glm::cross(x, y); }, a, b);
+}
+
+DualNumber dot(const DualVector& a, const DualVector& b) {
+    return multiply([](const dvec3& x, const dvec3& y) { return glm::dot(x, y); }, a, b);
+}
+
+DualNumber reciprocal(const DualNumber& a) {
+    const double slope = -1 / (a.value * a.value);
+    return {1 / a.value, slope * a.u, slope * a.v};
+}
+
+DualNumber squareRoot(const DualNumber& a) {
+    const double root = std::sqrt(a.value);
+    return {root, a.u / (2 * root), a.v / (2 * root)};
+}
+
+/// p_u x p_v; its length is the area per unit of (u,v).
+DualVector areaVector(const LimitFrame& frame) {
+    return cross(DualVector{frame.pu, frame.puu, frame.puv}, DualVector{frame.pv, frame.puv, frame.pvv});
+}
+
+DualNumber areaOf(const LimitFrame& frame) {
+    const DualVector c = areaVector(frame);
+    return squareRoot(dot(c, c));
+}
+
+DualVector normalOf(const LimitFrame& frame) { return reciprocal(areaOf(frame)) * areaVector(frame); }
+
+/// m = q_u x q_v for q = p + h n. With a constant n this is Blinn's normal (1978), with the n that varies that of Lee,
+/// Moreton and Hoppe (2000).
+dvec3 normalOfDisplaced(const LimitFrame& frame, const DualNumber& h, const DualVector& n) {
+    const DualVector q = DualVector{frame.p, frame.pu, frame.pv} + h * n;
+    return glm::cross(q.u, q.v);
+}
 
 /// The direction of m, or n where m vanishes.
 dvec3 unitOr(const dvec3& m, const dvec3& n) {
@@ -14,76 +74,68 @@ dvec3 unitOr(const dvec3& m, const dvec3& n) {
     return length > 0 ? m / length : n;
 }
 
-/// Lee, Moreton, Hoppe 2000: m = q_u x q_v with the curvature term h n_u.
-dvec3 fullNormal(const LimitFrame& f, const dvec3& n, double h, const dvec2& dh) {
-    const double area = glm::length(glm::cross(f.pu, f.pv));
-    const dvec3 nu = formulas::normalDerivative(n, area, f.pu, f.pv, f.puu, f.puv);
-    const dvec3 nv = formulas::normalDerivative(n, area, f.pu, f.pv, f.puv, f.pvv);
-    return glm::cross(formulas::displacedTangent(f.pu, n, nu, h, dh.x),
-                      formulas::displacedTangent(f.pv, n, nv, h, dh.y));
-}
-
-/// |p_u x p_v| and its derivatives by (u,v).
-struct Area {
-    double value = 0;
-    dvec2 slope{0};
-};
-
-Area areaOf(const LimitFrame& f) {
-    const dvec3 c = glm::cross(f.pu, f.pv);
-    Area area{.value = glm::length(c)};
-    const dvec3 n = c / area.value;
-    area.slope = {glm::dot(n, glm::cross(f.puu, f.pv) + glm::cross(f.pu, f.puv)),
-                  glm::dot(n, glm::cross(f.puv, f.pv) + glm::cross(f.pu, f.pvv))};
-    return area;
-}
-
-/// What heights are multiplied with, and the derivatives of its logarithm.
-struct Stretch {
-    double factor = 1;
-    dvec2 logSlope{0};
-};
+/// Heights that stretch with the surface are multiplied with sigma = sqrt(A / A0), A the area now and A0 at rest. The
+/// factor ends here because there is no ratio where the rest pose has no area. The shaders' limit, stated again.
+constexpr double kLargestStretch = 4;
 
 /// Where p_u and p_v are parallel the areas are compared at first order along the diagonal, and there is no slope.
-Stretch stretchAtCorner(const dvec3& rest, const dvec3& now) {
+DualNumber stretchAtCorner(const dvec3& rest, const dvec3& now) {
     const double before = glm::length(rest), after = glm::length(now);
-    if (before == 0 || after == 0) return {};
-    return {std::min(std::sqrt(after / before), formulas::kMostStretch), dvec2(0)};
+    if (before == 0 || after == 0) return {1};
+    return {std::min(std::sqrt(after / before), kLargestStretch)};
 }
 
-Stretch stretchSince(const LimitFrame& rest, const LimitFrame& now) {
-    const Area before = areaOf(rest), after = areaOf(now);
-    const double factor = std::sqrt(after.value / before.value);
-    if (factor >= formulas::kMostStretch) return {formulas::kMostStretch, dvec2(0)};
-    return {factor, 0.5 * (after.slope / after.value - before.slope / before.value)};
+DualNumber stretchSince(const LimitFrame& rest, const LimitFrame& now) {
+    const DualNumber stretch = squareRoot(areaOf(now) * reciprocal(areaOf(rest)));
+    return stretch.value < kLargestStretch ? stretch : DualNumber{kLargestStretch};
+}
+
+/// The height over the face, by the chain rule through the texture coordinates.
+DualNumber heightOver(const TexFrame& tex, const HeightSample& sample) {
+    const dvec2 su = tex.jacobian[0], sv = tex.jacobian[1]; // (s_u, t_u) and (s_v, t_v)
+    return {sample.h, sample.hs * su.x + sample.ht * su.y, sample.hs * sv.x + sample.ht * sv.y};
 }
 
 } // namespace
 
+NormalFrame computeNormalFrame(const LimitFrame& frame) {
+    const DualVector n = normalOf(frame);
+    return {.n = n.value, .nu = n.u, .nv = n.v, .area = areaOf(frame).value};
+}
+
+DisplacedNormals computeDisplacedNormals(const LimitFrame& frame, double h, const dvec2& dh) {
+    const DualNumber height{h, dh.x, dh.y};
+    const DualVector n = normalOf(frame), constant{n.value};
+    return {.firstOrder = normalOfDisplaced(frame, height, constant), .full = normalOfDisplaced(frame, height, n)};
+}
+
 DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv,
                               const ReferenceSurface* rest) {
+    // The limit surface, and the height by the map alone.
     const TexFrame tex = surface.texture(face, uv);
     DisplacedFrame frame;
     frame.limit = surface.limit(face, uv);
-    frame.st = tex.st;
+    frame.tex = tex;
     frame.normal = frame.firstOrder = frame.full = surface.normal(face, uv);
-    if (map) frame.height = sampleHeight(*map, tex.st);
-    Stretch stretch;
+    if (map != nullptr) frame.height = sampleHeight(*map, tex.st);
+
+    // How much the surface has grown since the rest pose.
+    DualNumber stretch{1};
     if (rest != nullptr) {
         const LimitFrame before = rest->limit(face, uv);
         stretch = before.hasTangentPlane() && frame.limit.hasTangentPlane()
                       ? stretchSince(before, frame.limit)
                       : stretchAtCorner(rest->areaNormal(face, uv), surface.areaNormal(face, uv));
     }
-    frame.height.h *= stretch.factor, frame.height.hs *= stretch.factor, frame.height.ht *= stretch.factor;
-    frame.q = formulas::displacedPoint(frame.limit.p, frame.normal, frame.height.h);
-    if (!frame.limit.hasTangentPlane()) return frame; // there is no derivative of its normal either
+    const DualNumber height = stretch * heightOver(tex, frame.height);
+    frame.height.h *= stretch.value, frame.height.hs *= stretch.value, frame.height.ht *= stretch.value;
+    frame.q = frame.limit.p + height.value * frame.normal;
 
-    const dvec3& n = frame.normal;
-    const dvec2 dh =
-        formulas::heightGradient({frame.height.hs, frame.height.ht}, tex.jacobian) + frame.height.h * stretch.logSlope;
-    frame.firstOrder = unitOr(formulas::firstOrderNormal(n, frame.limit.pu, frame.limit.pv, dh), n);
-    frame.full = unitOr(fullNormal(frame.limit, n, frame.height.h, dh), n);
+    // Without a tangent plane the normal has no derivatives: all three normals stay that of the limit surface.
+    if (!frame.limit.hasTangentPlane()) return frame;
+    const DisplacedNormals normals = computeDisplacedNormals(frame.limit, height.value, {height.u, height.v});
+    frame.firstOrder = unitOr(normals.firstOrder, frame.normal);
+    frame.full = unitOr(normals.full, frame.normal);
     return frame;
 }
 

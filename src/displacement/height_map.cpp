@@ -7,14 +7,14 @@ namespace relief {
 
 namespace {
 
-/// The index of a texel that exists, for one that may lie outside.
+/// Wraps the index of a texel into the map.
 std::size_t wrapped(std::int64_t index, int size, Wrap wrap) {
     if (wrap == Wrap::clamp) return std::size_t(std::clamp<std::int64_t>(index, 0, size - 1));
     const std::int64_t rest = index % size;
     return std::size_t(rest < 0 ? rest + size : rest);
 }
 
-/// The same place on the map, near [0,1], so that texel numbers stay small however far away it was named.
+/// Moves a texture coordinate to the same texel near [0,1], so that texel numbers stay small.
 double nearUnit(double x, Wrap wrap) { return wrap == Wrap::repeat ? x - std::floor(x) : std::clamp(x, -1.0, 2.0); }
 
 /// Bilinear between texel centres, which lie at ((i + 1/2) / width, 1 - (j + 1/2) / height).
@@ -68,7 +68,7 @@ std::string listOf(const std::vector<std::string>& names) {
     return names.size() > kMost ? fmt::format("{} and {} more", list, names.size() - kMost) : list;
 }
 
-ChannelPlace chooseChannel(const ImageInfo& info, const std::string& path, const std::string& word, const Warn& warn) {
+ChannelIndex chooseChannel(const ImageInfo& info, const std::string& path, const std::string& word, const Warn& warn) {
     if (word.empty()) {
         const std::vector<std::string> layers = layersOf(info);
         if (layers.size() > 1)
@@ -76,7 +76,7 @@ ChannelPlace chooseChannel(const ImageInfo& info, const std::string& path, const
                              layers.size(), listOf(layers), info.channelNames.front()));
         return {};
     }
-    if (const std::optional<ChannelPlace> place = findChannel(info, word)) return *place;
+    if (const std::optional<ChannelIndex> index = findChannel(info, word)) return *index;
     std::vector<std::string> names;
     for (const ImagePart& part : info.parts)
         for (const std::string& name : part.channelNames)
@@ -86,7 +86,8 @@ ChannelPlace chooseChannel(const ImageInfo& info, const std::string& path, const
 }
 
 /// Voids become heights; throws where there is nothing to make them from.
-void repairVoids(HeightMap& map, const ImageInfo& info, const std::string& path, const Warn& warn) {
+void repairVoids(HeightMap& map, const MapEncoding& encoding, const ImageInfo& info, const std::string& path,
+                 const Warn& warn) {
     HeightCensus census(info);
     for (const float texel : map.texels) census.add(texel);
     census.finish();
@@ -101,7 +102,7 @@ void repairVoids(HeightMap& map, const ImageInfo& info, const std::string& path,
     std::vector<bool> isVoid(map.texels.size());
     for (std::size_t i = 0; i < isVoid.size(); ++i) isVoid[i] = census.isVoid(map.texels[i]);
     fillVoids(map.width, map.height, map.texels, isVoid);
-    roundToFormat(map);
+    roundTo(encoding, map.texels);
 }
 
 } // namespace
@@ -113,23 +114,27 @@ MapFormat fileFormat(const ImageInfo& info) {
     return MapFormat::real;
 }
 
-double HeightMap::heightBound() const { return std::abs(scale) * std::max(std::abs(lowest - mid), std::abs(highest - mid)); }
+double HeightMap::heightBound() const {
+    return std::abs(scale) * std::max(std::abs(lowest - mid), std::abs(highest - mid));
+}
 
-HeightMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn) {
+EncodedMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn) {
     const ImageInfo info = readImageInfo(path, options.limits);
-    const ChannelPlace place = chooseChannel(info, path, options.channel, warn);
+    const ChannelIndex index = chooseChannel(info, path, options.channel, warn);
     warnAbout(info, path, options, warn);
-    Image image = readImage(path, place.channel, options.limits, place.part);
+    Image image = readImage(path, index.channel, options.limits, index.part);
     HeightMap map{.width = image.width,
                   .height = image.height,
                   .texels = std::move(image.texels),
                   .mid = options.mid.value_or(info.hasUnit() ? 0.0 : 0.5),
                   .scale = options.scale.value_or(1.0),
-                  .wrap = options.wrap,
-                  .format = fileFormat(info)};
-    repairVoids(map, info, path, warn);
+                  .wrap = options.wrap};
+    // Texels of integer files are 0..1 already: their own steps, over the range that an encoding has by default.
+    const MapEncoding encoding{.format = fileFormat(info), .blocks = {}};
+    repairVoids(map, encoding, info, path, warn);
     map = finishMap(std::move(map), path);
-    return options.format ? inFormat(map, *options.format) : map;
+    if (options.format) return encode(map, *options.format);
+    return {std::move(map), encoding};
 }
 
 HeightMap makeHeightMap(int width, int height, std::vector<float> texels, double mid, double scale, Wrap wrap) {

@@ -76,18 +76,18 @@ float stepsOf(MapFormat format) { return format == MapFormat::unorm16 ? 65535 : 
 
 std::size_t bitsOf(MapFormat format) { return format == MapFormat::real ? 32 : format == MapFormat::unorm8 ? 8 : 16; }
 
-/// A value as the map's format keeps it, blocks aside, and what a reader makes of that.
-std::uint32_t packed(const HeightMap& map, float value) {
-    if (map.format == MapFormat::real) return std::bit_cast<std::uint32_t>(value);
-    if (map.format == MapFormat::half) return glm::packHalf1x16(value);
-    const float unit = std::clamp((value - map.base) / map.range, 0.0f, 1.0f);
-    return std::uint32_t(std::lround(unit * stepsOf(map.format)));
+/// A value as an encoding stores it (not in blocks), and what a reader makes of those bits.
+std::uint32_t packed(const MapEncoding& encoding, float value) {
+    if (encoding.format == MapFormat::real) return std::bit_cast<std::uint32_t>(value);
+    if (encoding.format == MapFormat::half) return glm::packHalf1x16(value);
+    const float unit = std::clamp((value - encoding.base) / encoding.range, 0.0f, 1.0f);
+    return std::uint32_t(std::lround(unit * stepsOf(encoding.format)));
 }
 
-float unpacked(const HeightMap& map, std::uint32_t bits) {
-    if (map.format == MapFormat::real) return std::bit_cast<float>(bits);
-    if (map.format == MapFormat::half) return glm::unpackHalf1x16(std::uint16_t(bits));
-    return map.base + map.range * (float(bits) / stepsOf(map.format));
+float unpacked(const MapEncoding& encoding, std::uint32_t bits) {
+    if (encoding.format == MapFormat::real) return std::bit_cast<float>(bits);
+    if (encoding.format == MapFormat::half) return glm::unpackHalf1x16(std::uint16_t(bits));
+    return encoding.base + encoding.range * (float(bits) / stepsOf(encoding.format));
 }
 
 struct Level {
@@ -111,14 +111,15 @@ std::vector<float> halved(const Level& fine) {
     return coarse;
 }
 
-std::vector<float> unitOf(const HeightMap& map, std::span<const float> texels) {
+/// Values as shares 0..1 of the encoding's range, and back.
+std::vector<float> toUnit(const MapEncoding& encoding, std::span<const float> texels) {
     std::vector<float> unit(texels.begin(), texels.end());
-    for (float& value : unit) value = (value - map.base) / map.range;
+    for (float& value : unit) value = (value - encoding.base) / encoding.range;
     return unit;
 }
 
-std::vector<float> fromUnit(const HeightMap& map, std::vector<float> unit) {
-    for (float& value : unit) value = map.base + map.range * value;
+std::vector<float> fromUnit(const MapEncoding& encoding, std::vector<float> unit) {
+    for (float& value : unit) value = encoding.base + encoding.range * value;
     return unit;
 }
 
@@ -128,55 +129,45 @@ float largestDifference(std::span<const float> a, std::span<const float> b) {
     return most;
 }
 
-/// Appends a level; returns how far what its readers find is from its texels.
-float appendBlocks(MapWords& to, const HeightMap& map, const Level& level) {
-    const std::size_t first = to.words.size();
-    const std::vector<std::uint8_t> blocks =
-        first == 0 ? map.blocks : blocksOf(unitOf(map, level.texels), level.width, level.height);
-    to.words.resize(first + blocks.size() / 4);
-    std::memcpy(&to.words[first], blocks.data(), blocks.size());
-    return largestDifference(level.texels, fromUnit(map, valuesOf(blocks, level.width, level.height)));
-}
-
-float appendTexels(MapWords& to, const HeightMap& map, const Level& level) {
-    const std::size_t first = to.words.size(), bits = bitsOf(map.format), perWord = 32 / bits;
-    to.words.resize(first + (level.texels.size() + perWord - 1) / perWord, 0);
-    float most = 0;
-    for (std::size_t i = 0; i < level.texels.size(); ++i) {
-        const std::uint32_t texel = packed(map, level.texels[i]);
-        to.words[first + i / perWord] |= texel << (bits * (i % perWord));
-        most = std::max(most, std::abs(unpacked(map, texel) - level.texels[i]));
-    }
-    return most;
-}
-
 /// Bytes of one level: whole words.
 std::uint64_t levelBytes(MapFormat format, std::uint64_t width, std::uint64_t height) {
     if (format == MapFormat::bc4) return (width + 3) / 4 * ((height + 3) / 4) * 8;
     return (width * height * bitsOf(format) + 31) / 32 * 4;
 }
 
-} // namespace
-
-std::string nameOf(MapFormat format) {
-    switch (format) {
-    case MapFormat::real: return "float";
-    case MapFormat::half: return "half";
-    case MapFormat::unorm16: return "16 bit";
-    case MapFormat::unorm8: return "8 bit";
-    case MapFormat::bc4: return "BC4";
-    }
-    return "";
+/// Appends a level; returns the largest difference between its texels and what a reader of the words finds.
+float appendBlocks(MapWords& to, const MapEncoding& encoding, const Level& level) {
+    const std::size_t first = to.words.size();
+    const std::vector<std::uint8_t> blocks =
+        first == 0 ? encoding.blocks : blocksOf(toUnit(encoding, level.texels), level.width, level.height);
+    RELIEF_CHECK(blocks.size() == levelBytes(encoding.format, std::uint64_t(level.width), std::uint64_t(level.height)));
+    to.words.resize(first + blocks.size() / 4);
+    std::memcpy(&to.words[first], blocks.data(), blocks.size());
+    return largestDifference(level.texels, fromUnit(encoding, valuesOf(blocks, level.width, level.height)));
 }
+
+float appendTexels(MapWords& to, const MapEncoding& encoding, const Level& level) {
+    const std::size_t first = to.words.size(), bits = bitsOf(encoding.format), perWord = 32 / bits;
+    to.words.resize(first + (level.texels.size() + perWord - 1) / perWord, 0);
+    float most = 0;
+    for (std::size_t i = 0; i < level.texels.size(); ++i) {
+        const std::uint32_t texel = packed(encoding, level.texels[i]);
+        to.words[first + i / perWord] |= texel << (bits * (i % perWord));
+        most = std::max(most, std::abs(unpacked(encoding, texel) - level.texels[i]));
+    }
+    return most;
+}
+
+} // namespace
 
 std::array<std::uint8_t, 8> encodeBc4(std::span<const float, 16> values) {
     const auto [lowest, highest] = std::ranges::minmax(values);
     std::uint8_t best[2] = {byteOf(highest), byteOf(lowest)};
     double least = errorOf(best[0], best[1], values);
     // End points a little inside of the range often serve the values between better.
-    const int low = byteOf(lowest), high = byteOf(highest), reach = std::min(4, (high - low) / 4);
-    for (int a = -1; a <= reach; ++a)
-        for (int b = -1; b <= reach; ++b) {
+    const int low = byteOf(lowest), high = byteOf(highest), inset = std::min(4, (high - low) / 4);
+    for (int a = -1; a <= inset; ++a)
+        for (int b = -1; b <= inset; ++b) {
             const auto red0 = std::uint8_t(std::clamp(high - a, 0, 255)),
                        red1 = std::uint8_t(std::clamp(low + b, 0, 255));
             const double error = errorOf(red0, red1, values);
@@ -199,50 +190,62 @@ std::array<float, 16> decodeBc4(std::span<const std::uint8_t, 8> block) {
     return values;
 }
 
-void roundToFormat(HeightMap& map) {
-    for (float& texel : map.texels) texel = unpacked(map, packed(map, texel));
+void roundTo(const MapEncoding& encoding, std::span<float> texels) {
+    for (float& texel : texels) texel = unpacked(encoding, packed(encoding, texel));
 }
 
-HeightMap inFormat(const HeightMap& map, MapFormat format) {
-    HeightMap kept = map;
-    kept.format = format;
-    kept.base = 0, kept.range = 1;
-    kept.blocks.clear();
-    if (format == MapFormat::real) return kept;
+EncodedMap encode(const HeightMap& map, MapFormat format) {
+    EncodedMap result{.decoded = map, .encoding = {.format = format, .blocks = {}}};
+    HeightMap& decoded = result.decoded;
+    MapEncoding& encoding = result.encoding;
+    if (format == MapFormat::real) return result;
+
+    // Integers and blocks spread their numbers over the map's own range; halves have a range of their own.
     constexpr float kMostHalf = 65504;
     if (format == MapFormat::half && std::max(-map.lowest, map.highest) > kMostHalf)
         fail(Failure::input, "the height map's values go to {}; halves hold up to {}: keep it as float or unorm16",
              std::max(-map.lowest, map.highest), kMostHalf);
     if (format != MapFormat::half) {
-        kept.base = map.lowest;
-        if (map.highest > map.lowest) kept.range = map.highest - map.lowest;
+        encoding.base = map.lowest;
+        if (map.highest > map.lowest) encoding.range = map.highest - map.lowest;
     }
+
+    // Blocks are kept: encoding what was decoded from them could choose others.
     if (format == MapFormat::bc4) {
-        kept.blocks = blocksOf(unitOf(kept, map.texels), map.width, map.height);
-        kept.texels = fromUnit(kept, valuesOf(kept.blocks, map.width, map.height));
+        encoding.blocks = blocksOf(toUnit(encoding, map.texels), map.width, map.height);
+        decoded.texels = fromUnit(encoding, valuesOf(encoding.blocks, map.width, map.height));
     } else {
-        roundToFormat(kept);
+        roundTo(encoding, decoded.texels);
     }
-    const auto [lowest, highest] = std::ranges::minmax(kept.texels);
-    kept.lowest = lowest, kept.highest = highest;
-    return kept;
+    const auto [lowest, highest] = std::ranges::minmax(decoded.texels);
+    decoded.lowest = lowest, decoded.highest = highest;
+    return result;
 }
 
-MapWords wordsOf(const HeightMap& map) {
-    MapWords words;
-    words.words.reserve(mapBytes(map.format, map.width, map.height) / 4);
+MapWords toWords(const HeightMap& decoded, const MapEncoding& encoding) {
+    // Integers and codes of blocks are read as numbers 0..steps, other formats as the values themselves.
+    MapWords words{.words = {}, .firsts = {}, .mid = decoded.mid, .scale = decoded.scale};
+    if (encoding.format != MapFormat::real && encoding.format != MapFormat::half) {
+        const double step = double(encoding.range) / double(stepsOf(encoding.format));
+        words.mid = (decoded.mid - double(encoding.base)) / step;
+        words.scale = decoded.scale * step;
+    }
+
+    words.words.reserve(mapBytes(encoding.format, decoded.width, decoded.height) / 4);
     const auto append = [&](const Level& level) {
         words.firsts.push_back(std::uint32_t(words.words.size()));
-        return map.format == MapFormat::bc4 ? appendBlocks(words, map, level) : appendTexels(words, map, level);
+        return encoding.format == MapFormat::bc4 ? appendBlocks(words, encoding, level)
+                                                 : appendTexels(words, encoding, level);
     };
-    Level level{map.width, map.height, map.texels};
+    Level level{decoded.width, decoded.height, decoded.texels};
     append(level);
-    std::vector<float> texels;
+    std::vector<float> texels; // of the level, which mips are made of before they are rounded
     while ((level.width > 1 || level.height > 1) && words.firsts.size() < kMostMapLevels) {
         texels = halved(level);
         level = {std::max(level.width / 2, 1), std::max(level.height / 2, 1), texels};
         words.roundOff = std::max(words.roundOff, append(level));
     }
+    RELIEF_CHECK(words.words.size() * 4 == mapBytes(encoding.format, decoded.width, decoded.height));
     return words;
 }
 
@@ -253,12 +256,6 @@ std::uint64_t mapBytes(MapFormat format, int width, int height) {
         bytes += levelBytes(format, std::uint64_t(width), std::uint64_t(height));
     }
     return bytes;
-}
-
-WordScale wordScale(const HeightMap& map) {
-    if (map.format == MapFormat::real || map.format == MapFormat::half) return {map.mid, map.scale};
-    const double step = double(map.range) / double(stepsOf(map.format));
-    return {(map.mid - double(map.base)) / step, map.scale * step};
 }
 
 } // namespace relief

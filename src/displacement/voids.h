@@ -12,7 +12,7 @@ namespace relief {
 /// Lumigraph", section 3.4). At least one texel must be a height.
 void fillVoids(int width, int height, std::span<float> texels, const std::vector<bool>& isVoid);
 
-/// Rounds to what the map's format holds of values in place (not for blocks).
-void roundToFormat(HeightMap& map);
+/// Rounds texels in place to what the encoding holds of them (not for blocks).
+void roundTo(const MapEncoding& encoding, std::span<float> texels);
 
 } // namespace relief

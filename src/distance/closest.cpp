@@ -66,6 +66,7 @@ dvec3 nearestInTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dv
 }
 
 ClosestPoints::ClosestPoints(const TriangleView& triangles) {
+    // Embree reads 16 bytes per vertex: one more vertex lies behind the last.
     checkTriangles(triangles);
     positions_.reserve(triangles.positions.size() + 1);
     positions_.assign(triangles.positions.begin(), triangles.positions.end());
@@ -76,6 +77,8 @@ ClosestPoints::ClosestPoints(const TriangleView& triangles) {
              int(rtcGetDeviceError(nullptr)));
     scene_.reset(rtcNewScene(device_.get()));
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW); // as many trees are built as measured
+
+    // The geometry shares our arrays and answers point queries by visitTriangle.
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, positions_.data(), 0,
                                sizeof(vec3), positions_.size() - 1);
@@ -86,12 +89,12 @@ ClosestPoints::ClosestPoints(const TriangleView& triangles) {
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);
+
+    // Errors of building show only here.
     rtcCommitScene(scene_.get());
     if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
         fail(error == RTC_ERROR_OUT_OF_MEMORY ? Failure::device : Failure::internal,
-             "Embree builds no tree of {} "
-             "triangles: error {}",
-             indices_.size() / 3, int(error));
+             "Embree builds no tree of {} triangles: error {}", indices_.size() / 3, int(error));
 }
 
 double ClosestPoints::distance(const dvec3& p, double limit) const {

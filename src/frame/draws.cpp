@@ -21,7 +21,7 @@ void Renderer::Parts::makeTriangles(const Frame& frame, Drawn& drawn, FrameStats
 void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& stats) {
     const RenderOptions& o = frame.options;
     const SurfaceModel& model = *drawn.surface;
-    const std::vector<char> isVisible = visibleFaces(model, drawn.inputs.view.toClip, drawn.view);
+    const std::vector<char> isVisible = visibleFaces(model, drawn.inputs.view.toClip, drawn.view, drawn.rates);
     const DrawPlan& plan = drawn.plan =
         frame.path == Path::grid
             ? planGrids(model, drawn.rates, isVisible)

@@ -145,13 +145,13 @@ private:
             entries.push_back(entryOf(saving));
             return;
         }
-        note(fmt::format("cage + {} map", nameOf(format)), tolerance);
+        note(fmt::format("cage + {} map", wordOf(kMapFormats, format)), tolerance);
     }
 
     Entry entryOf(const Saving& saving) {
-        const HeightMap& map = contest_.map(saving.side, saving.format);
+        const HeightMap& map = contest_.map(saving.side, saving.format).decoded;
         const Judged& judged = contest_.judged(saving);
-        Entry entry{.name = fmt::format("cage + {} map", nameOf(saving.format)), .error = judged.error};
+        Entry entry{.name = fmt::format("cage + {} map", wordOf(kMapFormats, saving.format)), .error = judged.error};
         entry.triangles = judged.counts.triangles;
         entry.resident = double(judged.residentBytes);
         entry.isTimed = true;

@@ -34,8 +34,10 @@ std::vector<Camera> cameraPath(std::span<const dvec3> points) {
 }
 
 OnDevice::OnDevice(Device& device, const Subject& subject)
-    : surface(buildSurface(subject.cage, subject.surface)),
-      model(device, {.surface = &surface, .cagePositions = subject.cage.positions, .height = &subject.height}) {
+    : surface(buildSurface(subject.cage, subject.surface)), model(device, {.surface = &surface,
+                                                                           .cagePositions = subject.cage.positions,
+                                                                           .height = &subject.height,
+                                                                           .encoding = &subject.heightEncoding}) {
     const std::vector<dvec3> points = outlineOf(subject);
     views = cameraPath(points);
     for (const dvec3& p : points) bounds.add(p);

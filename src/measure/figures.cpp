@@ -13,9 +13,9 @@ LineStyle styleOf(const std::string& contestant) {
     static const std::map<std::string, LineStyle> styles{
         {"cage + float map", {0, 0}},
         {"cage + half map", {0, 1}},
-        {"cage + 16 bit map", {0, 2}},
-        {"cage + 8 bit map", {0, 3}},
-        {"cage + BC4 map", {0, 4}},
+        {"cage + unorm16 map", {0, 2}},
+        {"cage + unorm8 map", {0, 3}},
+        {"cage + bc4 map", {0, 4}},
         {"dense mesh, raw", {1, 0}},
         {"dense mesh, quantised", {1, 1}},
         {"Draco, dense mesh", {1, 2}},

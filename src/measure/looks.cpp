@@ -79,7 +79,7 @@ void Looks::judge(double tolerance, const std::vector<Drawable>& all) {
             if (isCompared) compare(look, seen(picture), reference_[round]);
         }
     if (!std::exchange(hasPair_, true)) {
-        addPair(tolerance, "dense mesh, raw", "cage + BC4 map");
+        addPair(tolerance, "dense mesh, raw", "cage + bc4 map");
         addPair(tolerance, "simplified mesh, raw", "cage + float map");
     }
 }

@@ -159,7 +159,8 @@ struct Subject {
     std::string name;
     Cage cage;
     SurfaceOptions surface;
-    HeightMap height;
+    HeightMap height;           ///< as the device reads it
+    MapEncoding heightEncoding; ///< how the device stores it
 };
 
 /// Smooth noise and a crisp pattern on bigguy (in the folder RELIEF_DATA, where it is there) or the project's octopus.

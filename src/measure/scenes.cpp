@@ -90,7 +90,7 @@ std::vector<Subject> builtInSubjects(bool isQuick) {
     for (const float wave : smooth.texels) plates.push_back(crispOf(wave));
     const HeightMap crisp =
         makeHeightMap(smooth.width, smooth.height, std::move(plates), 0, 0.5 * smooth.scale, smooth.wrap);
-    return {{name + ", smooth noise", cage, {}, smooth}, {name + ", crisp plates", cage, {}, crisp}};
+    return {{name + ", smooth noise", cage, {}, smooth, {}}, {name + ", crisp plates", cage, {}, crisp, {}}};
 }
 
 } // namespace relief

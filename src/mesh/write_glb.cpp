@@ -39,8 +39,7 @@ OrderedJson accessorOf(const char* type, int componentType, std::uint64_t count)
 }
 
 OrderedJson positionAccessor(const DenseMesh& mesh) {
-    Bounds bounds;
-    for (const vec3& p : mesh.positions) bounds.add(dvec3(p));
+    const Bounds bounds = computeBounds(mesh.positions);
     OrderedJson accessor = accessorOf("VEC3", kFloat, mesh.positions.size());
     accessor["min"] = {bounds.lower.x, bounds.lower.y, bounds.lower.z};
     accessor["max"] = {bounds.upper.x, bounds.upper.y, bounds.upper.z};

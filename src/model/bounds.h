@@ -1,5 +1,5 @@
-// Internal: conservative bounds of displaced faces, from control points and from the smallest and largest heights of
-// blocks of the map.
+// For other modules: conservative bounds of displaced faces, from control points and from the smallest and largest
+// heights of blocks of the map.
 #pragma once
 
 #include <span>
@@ -10,29 +10,48 @@
 
 namespace relief {
 
+// --- heights ------------------------------------------------------------------------------------------------------
+
+/// Bounds of h over a part of the map.
 struct Range {
-    float lowest = 0, highest = 0;
-    float slopeS = 0,
-          slopeT = 0; ///< most that neighbouring texels differ, along rows and down columns; of h by s and t
+    float lowest = 0, highest = 0; ///< of h, cage units
+    float slopeS = 0, slopeT = 0;  ///< largest |h_s| and |h_t|
 };
 
-/// Smallest and largest heights of squares of texels, and of squares of those.
+/// A box of texture coordinates; empty (lower > upper) by default.
+struct TexBox {
+    vec2 lower{1e30f}, upper{-1e30f};
+
+    [[nodiscard]] bool isEmpty() const { return lower.x > upper.x; }
+};
+
+/// Smallest and largest texels of squares of a map, and of squares of those.
 class HeightPyramid {
 public:
     HeightPyramid() = default;
     /// `roundOff`: how far a mip's texel may be from the mean that it stands for.
     explicit HeightPyramid(const HeightMap& map, float roundOff = 0);
 
-    /// Bounds of h in cage units over a box of texture coordinates, with all texels that its lookups read.
-    [[nodiscard]] Range range(const vec2& lower, const vec2& upper) const;
+    [[nodiscard]] bool isEmpty() const { return levels_.empty(); }
+
+    /// Bounds of what lookups in the mip levels 0..level find in a box of texture coordinates. A lookup reads texels
+    /// beyond the box: up to three texels of the level on each side. All 0 for an empty pyramid.
+    [[nodiscard]] Range range(const TexBox& box, int level = 0) const;
 
 private:
+    /// Stored values: the smallest, the largest, and the largest difference of neighbours along rows and columns.
+    struct Block {
+        float lowest = INFINITY, highest = -INFINITY;
+        float stepS = 0, stepT = 0;
+
+        void add(const Block& block);
+    };
     struct Level {
         int width = 0, height = 0;
-        std::vector<Range> blocks; ///< stored values
+        std::vector<Block> blocks;
     };
-    [[nodiscard]] Range blocksIn(std::size_t level, const ivec2& first, const ivec2& last) const;
-    [[nodiscard]] Range heights(const Range& stored) const;
+    [[nodiscard]] Block blocksIn(std::size_t level, const ivec2& first, const ivec2& last) const;
+    [[nodiscard]] Range heights(const Block& stored, const dvec2& stepFactor) const;
 
     ivec2 size_{0};
     float roundOff_ = 0;
@@ -41,24 +60,46 @@ private:
     std::vector<Level> levels_; ///< the last one is a single block
 };
 
-/// The largest |h| on each face; 0 for holes and without a map.
-std::vector<float> faceHeightBounds(const Surface& surface, const HeightMap* map, const HeightPyramid& pyramid);
+/// A box around the texture coordinates of each face; empty for holes. Without texture coordinates each face takes the
+/// whole map.
+std::vector<TexBox> faceTexBoxes(const Surface& surface);
+
+/// The largest |h| that lookups in the mip levels 0..level find on a face; 0 for an empty box or pyramid.
+float heightBound(const HeightPyramid& pyramid, const TexBox& box, int level = 0);
+std::vector<float> faceHeightBounds(const HeightPyramid& pyramid, std::span<const TexBox> boxes);
+
+// --- positions ----------------------------------------------------------------------------------------------------
 
 /// A box around each displaced face (empty for holes): the patches lie in the hull of their control points.
 std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points,
                                std::span<const float> heightBounds);
 
-/// Bounds of the displaced normals m = q_u x q_v of a face, not unit: along `axis` at least `along`, across it at most
-/// `across`. A face whose normals are not bounded has along = 0.
+// --- normals ------------------------------------------------------------------------------------------------------
+
+/// Bounds of the normals m = q_u x q_v of a face, not unit: along `axis` at least `along`, across it at most `across`.
+/// A face whose normals are not bounded has along = 0.
 struct NormalBounds {
     dvec3 axis{0};
     double along = 0, across = 0;
 };
 
-/// For faces of a single bicubic patch without boundary: both tangents are convex combinations of differences of
-/// control points, and what displacement adds to them is bounded by heights, their slopes and second differences.
-/// `pyramid`: of the height map, or null.
-std::vector<NormalBounds> normalBounds(const Surface& surface, std::span<const vec3> points,
-                                       const HeightPyramid* pyramid);
+/// Bounds of the limit surface of a face, and what decides how far displacement turns its normals.
+struct FaceNormals {
+    NormalBounds limit;
+    double u = 0, v = 0, uu = 0, uv = 0, vv = 0; ///< longest p_u, p_v, p_uu, p_uv and p_vv
+    double su = 1, sv = 0, tu = 0, tv = 1;       ///< largest |s_u|, |s_v|, |t_u| and |t_v|
+    bool hasTextureSlopes = true;                ///< else these are not known, and no displaced normal is bounded
+};
+
+/// For faces of a single bicubic patch without boundary: their tangents are convex combinations of differences of
+/// control points. Other faces are not bounded.
+std::vector<FaceNormals> faceNormals(const Surface& surface, std::span<const vec3> points);
+
+/// Bounds of the normals that displacement by such heights leaves.
+NormalBounds displacedNormals(const FaceNormals& face, const Range& heights);
+
+/// For all faces, of lookups in level 0; those of the limit surface where the pyramid is empty.
+std::vector<NormalBounds> normalBounds(std::span<const FaceNormals> faces, std::span<const TexBox> boxes,
+                                       const HeightPyramid& pyramid);
 
 } // namespace relief

@@ -12,23 +12,22 @@ std::span<const std::byte> bytesOf(const std::vector<T>& array) {
 }
 
 /// A map whose words are more than the device reads from one table is refused before anything is allocated.
-void checkMapSize(const Device& device, const HeightMap& map) {
-    const std::uint64_t bytes = mapBytes(map.format, map.width, map.height), most = largestTable(device, 4);
+void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) {
+    const std::uint64_t bytes = mapBytes(format, map.width, map.height), most = largestTable(device, 4);
     if (bytes > most)
         fail(Failure::device, "a height map of {} x {} takes {} with its mips; {} reads {}", map.width, map.height,
              humanBytes(bytes), device.traits().name, humanBytes(most));
 }
 
-MapRecord makeRecord(const HeightMap& map, const std::vector<std::uint32_t>& firstWords) {
-    const WordScale scale = wordScale(map);
+MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
     MapRecord record{};
     record.size = {map.width, map.height};
-    record.mid = float(scale.mid);
-    record.scale = float(scale.scale);
+    record.mid = float(words.mid);
+    record.scale = float(words.scale);
     record.repeats = map.wrap == Wrap::repeat ? 1 : 0;
-    record.levelCount = std::uint32_t(firstWords.size());
-    RELIEF_CHECK(firstWords.size() <= kMostMapLevels);
-    std::ranges::copy(firstWords, record.firstWords);
+    record.levelCount = std::uint32_t(words.firsts.size());
+    RELIEF_CHECK(words.firsts.size() <= kMostMapLevels);
+    std::ranges::copy(words.firsts, record.firstWords);
     return record;
 }
 
@@ -84,10 +83,12 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
 
     // Maps first: the bounds of faces need the range of their heights.
     if (desc.height != nullptr) {
-        checkMapSize(device, *desc.height);
-        const MapWords words = wordsOf(*desc.height);
-        height = GpuHeightMap{uploadWords(device, "height map", words.words), makeRecord(*desc.height, words.firsts),
-                              desc.height->format, float(desc.height->heightBound())};
+        const MapEncoding asFloats;
+        const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
+        checkMapSize(device, *desc.height, encoding.format);
+        const MapWords words = toWords(*desc.height, encoding);
+        height = GpuHeightMap{uploadWords(device, "height map", words.words), makeRecord(*desc.height, words),
+                              encoding.format, float(desc.height->heightBound())};
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
     if (desc.albedo != nullptr)
@@ -99,10 +100,13 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
 
     // Points of the pose that the cage is in, and the bounds of its faces.
     const std::vector<vec3> refined = refinePoints(surface, desc.cagePositions);
-    faceHeightBounds = relief::faceHeightBounds(surface, desc.height, heightPyramid);
+    faceTexBoxes = relief::faceTexBoxes(surface);
+    faceHeightBounds = relief::faceHeightBounds(heightPyramid, faceTexBoxes);
     faceBounds = relief::faceBounds(surface, refined, faceHeightBounds);
-    if (enclosesVolume(surface))
-        normalBounds = relief::normalBounds(surface, refined, desc.height != nullptr ? &heightPyramid : nullptr);
+    if (enclosesVolume(surface)) {
+        faceNormals = relief::faceNormals(surface, refined);
+        normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
+    }
     std::vector<vec4> texels;
     texels.reserve(refined.size());
     for (const vec3& p : refined) texels.emplace_back(p, 1.0f);

@@ -66,6 +66,7 @@ PatchWeights gregoryTriangleWeights(double uValue, double vValue) {
     const Jet w = Jet{1} - u - v;
     const Jet uu = u * u, vv = v * v, ww = w * w;
 
+    // Corners and the points along the border: quartic Bernstein polynomials.
     PatchWeights weights;
     weights[0] = ww * ww;
     weights[1] = 4 * u * w * ww;
@@ -80,6 +81,7 @@ PatchWeights gregoryTriangleWeights(double uValue, double vValue) {
     weights[17] = 6 * vv * ww;
     weights[2] = 4 * v * w * ww;
 
+    // Each inner point of the Bezier triangle is a blend of two: a corner's pair shares its polynomial.
     const double scale = 12;
     weights[3] = innerWeight(scale * ww * u * v, scale, u, v);
     weights[4] = innerWeight(scale * ww * u * v, scale, v, u);

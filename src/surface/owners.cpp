@@ -1,4 +1,5 @@
-// Edges and corners, who owns them, and which faces must agree on a normal there (DESIGN: watertight by construction).
+// Edges and corners, who owns them, and which faces share a direction of displacement there (src/README.md,
+// "Watertightness").
 //
 //   corner quads of an n-gon (n = 3)       side i of an n-gon runs from its corner i to corner i+1; quad i of its n
 //   quads
@@ -17,9 +18,10 @@
 namespace relief {
 namespace {
 
-/// Whether the faces of an edge agree on a direction there, and whether their texture coordinates part.
+/// Whether the faces of an edge have different normals there and displace in a shared direction, and whether their
+/// texture coordinates differ.
 struct EdgeKind {
-    bool isAgreed, isSeam;
+    bool isShared, isSeam;
 };
 
 /// Side `side` of the cage's face `face`.
@@ -71,14 +73,14 @@ private:
     }
 
     // OpenSubdiv makes boundary edges, non-manifold edges and non-manifold vertices infinitely sharp.
-    [[nodiscard]] bool isAgreedEdge(int edge) const {
+    [[nodiscard]] bool sharesDirectionAtEdge(int edge) const {
         return isBilinear_ || level_.IsEdgeInfSharp(edge) || level_.GetEdgeSharpness(edge) > sharpLimit_;
     }
 
-    [[nodiscard]] bool isAgreedVertex(int vertex) const {
+    [[nodiscard]] bool sharesDirectionAtVertex(int vertex) const {
         const auto edges = level_.GetVertexEdges(vertex);
         return isBilinear_ || level_.IsVertexInfSharp(vertex) || level_.GetVertexSharpness(vertex) > sharpLimit_ ||
-               std::any_of(edges.begin(), edges.end(), [&](int edge) { return isAgreedEdge(edge); });
+               std::any_of(edges.begin(), edges.end(), [&](int edge) { return sharesDirectionAtEdge(edge); });
     }
 
     /// True when two faces of the edge have texture coordinates of their own at one of its ends.
@@ -121,10 +123,10 @@ private:
     };
 
     /// Adds a corner that belongs to the lowest face.
-    std::uint32_t addCorner(std::vector<CornerIncidence>& incidences, bool isAgreed) {
+    std::uint32_t addCorner(std::vector<CornerIncidence>& incidences, bool sharesDirection) {
         std::ranges::stable_sort(incidences, {}, [](const CornerIncidence& t) { return t.incidence.face; });
         Corner corner{incidences.front().incidence, std::uint32_t(surface_.incidences.size()), 0, 0};
-        if (isAgreed) corner.incidenceCount = std::uint32_t(incidences.size());
+        if (sharesDirection) corner.incidenceCount = std::uint32_t(incidences.size());
         for (std::uint32_t i = 0; i < corner.incidenceCount; ++i) {
             surface_.incidences.push_back(incidences[i].incidence);
             surface_.sectorFaces.push_back(incidences[i].sectorFaces);
@@ -152,7 +154,7 @@ private:
         std::iota(sector.begin(), sector.end(), 0);
         for (const int edge : level_.GetVertexEdges(vertex)) {
             const auto sides = level_.GetEdgeFaces(edge);
-            if (isAgreedEdge(edge) || sides.size() != 2) continue;
+            if (sharesDirectionAtEdge(edge) || sides.size() != 2) continue;
             const int joined = sector[faces.FindIndex(sides[0])], old = sector[faces.FindIndex(sides[1])];
             std::ranges::replace(sector, old, joined);
         }
@@ -167,21 +169,21 @@ private:
         for (int vertex = 0; vertex < level_.GetNumVertices(); ++vertex) {
             const auto faces = level_.GetVertexFaces(vertex);
             const auto positions = level_.GetVertexFaceLocalIndices(vertex);
-            const bool isAgreed = isAgreedVertex(vertex);
+            const bool sharesDirection = sharesDirectionAtVertex(vertex);
             std::vector<std::uint32_t> sectors(faces.size(), 1);
-            if (isAgreed) sectors = sectorsAround(vertex);
+            if (sharesDirection) sectors = sectorsAround(vertex);
             std::vector<CornerIncidence> incidences;
             for (int i = 0; i < faces.size(); ++i) {
                 if (level_.IsFaceHole(faces[i])) continue;
                 const int corner = isNgon(faces[i]) ? 0 : positions[i];
                 incidences.push_back({{quadOf(faces[i], positions[i]), std::uint32_t(corner), 0, 0}, sectors[i]});
             }
-            if (!incidences.empty()) cornerOfVertex_[vertex] = addCorner(incidences, isAgreed);
+            if (!incidences.empty()) cornerOfVertex_[vertex] = addCorner(incidences, sharesDirection);
         }
     }
 
     /// The middle of a split edge is a corner of n-gons' quads and a point on the sides of quads.
-    std::uint32_t addMiddleCorner(const std::vector<SideUse>& uses, bool isAgreed) {
+    std::uint32_t addMiddleCorner(const std::vector<SideUse>& uses, bool sharesDirection) {
         std::vector<CornerIncidence> incidences;
         for (const SideUse& use : uses) {
             if (isNgon(use.face)) {
@@ -191,7 +193,7 @@ private:
                 incidences.push_back({{quadOf(use.face, 0), std::uint32_t(use.side), 0.5F, 0.5F}, 1});
             }
         }
-        return addCorner(incidences, isAgreed);
+        return addCorner(incidences, sharesDirection);
     }
 
     // --- edges
@@ -207,7 +209,7 @@ private:
         if (incidences.size() == 1) edge.flags |= kOnBoundary;
         if (kind.isSeam) edge.flags |= kOnSeam;
         sortByFace(incidences);
-        if (kind.isAgreed) edge.incidenceCount = addIncidences(incidences);
+        if (kind.isShared) edge.incidenceCount = addIncidences(incidences);
         surface_.edges.push_back(edge);
     }
 
@@ -224,7 +226,7 @@ private:
             setSide(incidence, edge, isReversed);
         }
         addEdge(incidences, cornerOfVertex_[start], cornerOfVertex_[endVertex(uses.front())], edge,
-                {isAgreedEdge(cageEdge), isSeam(uses)});
+                {sharesDirectionAtEdge(cageEdge), isSeam(uses)});
     }
 
     /// Half 0 or 1 of a side in the direction of its face.
@@ -237,9 +239,9 @@ private:
 
     void addSplitEdge(int cageEdge) {
         const auto& uses = uses_[cageEdge];
-        const EdgeKind kind{isAgreedEdge(cageEdge), isSeam(uses)};
+        const EdgeKind kind{sharesDirectionAtEdge(cageEdge), isSeam(uses)};
         const int start = startVertex(uses.front());
-        const std::uint32_t middle = addMiddleCorner(uses, kind.isAgreed);
+        const std::uint32_t middle = addMiddleCorner(uses, kind.isShared);
         const std::uint32_t ends[] = {cornerOfVertex_[start], middle, cornerOfVertex_[endVertex(uses.front())]};
         const auto first = std::uint32_t(surface_.edges.size());
         for (int half = 0; half < 2; ++half) {

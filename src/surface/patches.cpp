@@ -13,10 +13,16 @@ int enterQuadChild(dvec2& uv) {
 
 int enterTriangleChild(dvec2& uv) {
     uv *= 2.0;
-    if (uv.x >= 1) return uv.x -= 1, 1;
-    if (uv.y >= 1) return uv.y -= 1, 2;
+    if (uv.x >= 1) {
+        uv.x -= 1;
+        return 1;
+    }
+    if (uv.y >= 1) {
+        uv.y -= 1;
+        return 2;
+    }
     if (uv.x + uv.y < 1) return 0;
-    uv = dvec2(1) - uv;
+    uv = dvec2(1) - uv; // the middle triangle is rotated
     return 3;
 }
 

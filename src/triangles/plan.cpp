@@ -77,6 +77,38 @@ bool facesAway(const Bounds& box, const NormalBounds& normals, const dvec3& eye)
     return angle < 1.57 && normals.along * std::cos(angle) > normals.across * std::sin(angle);
 }
 
+/// The coarsest mip level that lookups on a face read.
+int coarsestLevel(const SurfaceModel& model, const EdgeRates& rates, std::uint32_t face) {
+    if (!rates.hasMips() || model.faces[face].root == kNoPatch) return 0;
+    float level = 0;
+    for (int side = 0; side < model.sideCount; ++side) {
+        const std::uint32_t entry = model.faces[face].sides[side], edge = entry & kSideEdgeMask;
+        for (std::uint32_t half = edge; half <= edge + ((entry & kSideSplit) != 0 ? 1 : 0); ++half)
+            for (const std::uint32_t corner : model.edges[half].corners)
+                level = std::max(level, rates.cornerLevels[corner]);
+    }
+    return int(std::ceil(level));
+}
+
+/// The model's boxes, grown by what coarser levels than 0 may add to its heights.
+std::vector<Bounds> boundsOfLevels(const SurfaceModel& model, const EdgeRates& rates) {
+    std::vector<Bounds> boxes = model.faceBounds;
+    for (std::uint32_t face = 0; face < boxes.size() && rates.hasMips(); ++face) {
+        const int level = coarsestLevel(model, rates, face);
+        if (level == 0 || boxes[face].isEmpty()) continue;
+        const float bound = heightBound(model.heightPyramid, model.faceTexBoxes[face], level);
+        const double growth = double(bound) - double(model.faceHeightBounds[face]);
+        boxes[face].lower -= growth, boxes[face].upper += growth;
+    }
+    return boxes;
+}
+
+NormalBounds normalsOfLevel(const SurfaceModel& model, const EdgeRates& rates, std::uint32_t face) {
+    const int level = coarsestLevel(model, rates, face);
+    if (level == 0) return model.normalBounds[face];
+    return displacedNormals(model.faceNormals[face], model.heightPyramid.range(model.faceTexBoxes[face], level));
+}
+
 } // namespace
 
 std::uint64_t dicedTriangles(std::span<const std::uint32_t> r) {
@@ -95,17 +127,18 @@ std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
     return sum + 3 * (n - 2) + evenTriangle(n - 2);
 }
 
-std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view) {
+std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view, const EdgeRates& rates) {
+    // Lookups in coarse mip levels read farther than those that the model's boxes hold.
+    const std::vector<Bounds> boxes = boundsOfLevels(model, rates);
+
     // Where the near plane cuts the object open, and from within, insides are seen.
-    const bool seesOutside =
-        !model.normalBounds.empty() &&
-        std::ranges::none_of(model.faceBounds, [&](const Bounds& box) { return isCut(box, worldToClip); });
+    const bool seesOutside = !model.normalBounds.empty() &&
+                             std::ranges::none_of(boxes, [&](const Bounds& box) { return isCut(box, worldToClip); });
     std::vector<char> isVisible;
-    isVisible.reserve(model.faceBounds.size());
-    for (std::size_t face = 0; face < model.faceBounds.size(); ++face) {
-        const Bounds& box = model.faceBounds[face];
-        const bool isHidden = box.isEmpty() || isOutside(box, worldToClip) ||
-                              (seesOutside && facesAway(box, model.normalBounds[face], dvec3(view.eye)));
+    isVisible.reserve(boxes.size());
+    for (std::uint32_t face = 0; face < boxes.size(); ++face) {
+        const auto isBack = [&] { return facesAway(boxes[face], normalsOfLevel(model, rates, face), dvec3(view.eye)); };
+        const bool isHidden = boxes[face].isEmpty() || isOutside(boxes[face], worldToClip) || (seesOutside && isBack());
         isVisible.push_back(isHidden ? 0 : 1);
     }
     return isVisible;

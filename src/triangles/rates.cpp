@@ -105,7 +105,7 @@ std::vector<EdgeFootprint> EdgeRater::Parts::measureFootprints(const SurfaceMode
     const std::vector<float> words = measure({.file = "footprints.comp", .floatCount = kFootprintFloats}, model, {});
     for (std::size_t i = 0; i < words.size(); i += kFootprintFloats) {
         const Range range =
-            model.heightPyramid.range(vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4]));
+            model.heightPyramid.range({vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4])});
         edges.push_back({words[i], range.highest - range.lowest});
     }
     return edges;

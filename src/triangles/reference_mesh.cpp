@@ -14,7 +14,7 @@ DenseMesh denseMesh(const ReferenceSurface& surface, const HeightMap* map, int r
                 const DisplacedFrame f = displacedFrame(surface, map, face, dvec2(i, j) / double(rate));
                 mesh.positions.emplace_back(f.q);
                 mesh.normals.emplace_back(f.full);
-                mesh.texCoords.emplace_back(f.st);
+                mesh.texCoords.emplace_back(f.tex.st);
             }
         for (const std::uint32_t index : grid) mesh.indices.push_back(first + index);
     }

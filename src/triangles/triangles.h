@@ -79,8 +79,10 @@ FaceSegments faceSegments(const SurfaceModel& model, const EdgeRates& rates, std
 // --- draws --------------------------------------------------------------------------------------------------------
 
 /// One a face: false where it is hidden with certainty: its box is outside what `worldToClip` shows, or all its normals
-/// point away and the near plane cuts nothing of a closed surface.
-std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view);
+/// point away and the near plane cuts nothing of a closed surface. `rates`: those that it is drawn with, for the mip
+/// levels of its heights; by default level 0.
+std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view,
+                               const EdgeRates& rates = {});
 
 /// Faces drawn together, and the calls that draw them.
 struct DrawBatch {

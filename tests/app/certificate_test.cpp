@@ -86,6 +86,17 @@ TEST(Certificate, isBrokenByFramesThatAreOff) {
     }
 }
 
+TEST(Certificate, isBrokenByPointsThatAreDisplacedWrongly) {
+    Certificate c = soundCertificate();
+    c.frames.regular.countMisplaced = c.frames.regular.countMisturned = 1; // rounding, in one of a hundred
+    EXPECT_TRUE(c.brokenPromises().empty());
+    c.frames.regular.countMisplaced = 2;
+    expectBroken(c, {"2 of 100", "p + h n"});
+    c = soundCertificate();
+    c.frames.regular.countMisturned = 2;
+    expectBroken(c, {"2 of 100", "normals"});
+}
+
 TEST(Certificate, promisesTangentsLessWherePatchesAreMagnifiedMore) {
     Certificate c = soundCertificate();
     c.frames.regular.tangent.max = 3e-5;

@@ -50,14 +50,35 @@ inline Names wordsOf(const std::string& text) {
     return words;
 }
 
-/// What each module USES, from the lines `add_module(NAME USES modules... LINKS libraries...)`.
-using Modules = std::map<std::string, Names>;
+/// A line `add_module(NAME USES modules... OFFERS headers... LINKS libraries...)`.
+struct Module {
+    Names uses;   ///< modules
+    Names offers; ///< headers besides NAME.h that other modules may include
+
+    bool operator==(const Module&) const = default;
+};
+using Modules = std::map<std::string, Module>;
 
 inline Modules modulesOf(const std::vector<Line>& cmake) {
-    static const std::regex call(R"(^add_module\((\w+)(?: USES ([\w ]+?))?(?: LINKS [^)]*)?\))");
+    static const std::regex call(R"(^add_module\((\w+)([^)]*)\))");
     Modules modules;
-    for (const Line& line : cmake)
-        if (std::smatch found; std::regex_search(line.text, found, call)) modules[found[1]] = wordsOf(found[2]);
+    for (const Line& line : cmake) {
+        std::smatch found;
+        if (!std::regex_search(line.text, found, call)) continue;
+        Module& module = modules[found[1]];
+        Names others;
+        Names* list = &others;
+        std::istringstream words(found[2]);
+        for (std::string word; words >> word;)
+            if (word == "USES")
+                list = &module.uses;
+            else if (word == "OFFERS")
+                list = &module.offers;
+            else if (word == "LINKS")
+                list = &others;
+            else
+                list->insert(word);
+    }
     return modules;
 }
 
@@ -74,10 +95,51 @@ inline Names allowedFor(const std::string& module, const Modules& modules) {
     Names allowed{module, "shared"};
     if (module == "shared") allowed = {"shared", "base"};
     if (const auto found = modules.find(module); found != modules.end())
-        allowed.insert(found->second.begin(), found->second.end());
+        allowed.insert(found->second.uses.begin(), found->second.uses.end());
     if (module == "app" || module.empty())
-        for (const auto& [name, uses] : modules) allowed.insert(name);
+        for (const auto& [name, module] : modules) allowed.insert(name);
     return allowed;
+}
+
+/// The file that an include names in quotes; "" for other lines.
+inline std::string includedFile(const std::string& text) {
+    static const std::regex include(R"re(^\s*#\s*include\s*"([^"]+)")re");
+    std::smatch found;
+    return std::regex_search(text, found, include) ? found[1].str() : "";
+}
+
+/// Headers of a module that everybody may include: NAME.h and what that includes of its own folder, as "base/files.h".
+inline Names publicHeaders(const fs::path& project, const std::string& module) {
+    Names headers{module + "/" + module + ".h"};
+    std::vector<std::string> open(headers.begin(), headers.end());
+    while (!open.empty()) {
+        const std::string header = open.back();
+        open.pop_back();
+        for (const Line& line : linesOf(project, "src/" + header)) {
+            const std::string file = includedFile(line.text);
+            if (file.starts_with(module + "/") && headers.insert(file).second) open.push_back(file);
+        }
+    }
+    return headers;
+}
+
+/// One line for each include of a header that is internal to another module than the including file's.
+inline std::vector<std::string> internalIncludes(const fs::path& project, const std::vector<Line>& sources,
+                                                 const Modules& modules) {
+    std::map<std::string, Names> open;
+    for (const auto& [name, module] : modules) {
+        open[name] = publicHeaders(project, name);
+        for (const std::string& header : module.offers) open[name].insert(name + "/" + header);
+    }
+    std::vector<std::string> found;
+    for (const Line& line : sources) {
+        const std::string file = includedFile(line.text), target = file.substr(0, file.find('/'));
+        // Helpers of tests lie in folders of the same names.
+        if (!modules.contains(target) || target == moduleOf(line.file) || !fs::exists(project / "src" / file)) continue;
+        if (!open[target].contains(file))
+            found.push_back(fmt::format("{}:{}: {} is internal to {}", line.file, line.number, file, target));
+    }
+    return found;
 }
 
 /// One line `file:line: ...` for each include that the table does not allow.

@@ -36,7 +36,7 @@ void writeExr(const std::string& path, const std::vector<OIIO::ImageSpec>& parts
 
 /// The number of the channel that a word chooses, or -1.
 float chosen(const std::string& path, const std::string& word) {
-    const std::optional<ChannelPlace> place = findChannel(readImageInfo(path), word);
+    const std::optional<ChannelIndex> place = findChannel(readImageInfo(path), word);
     return place ? readImage(path, place->channel, {}, place->part).texels.at(0) : -1;
 }
 

@@ -137,7 +137,7 @@ struct LoadHeightMap : testing::Test {
     Image image{.width = 2, .height = 1, .channels = 1, .texels = {0, 1}};
 
     HeightMap load(const std::string& name, const HeightOptions& options = {}) {
-        return loadHeightMap(folder / name, options, warnings.warn());
+        return loadHeightMap(folder / name, options, warnings.warn()).decoded;
     }
 };
 

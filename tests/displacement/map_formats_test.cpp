@@ -15,7 +15,7 @@ double worstOf(const HeightMap& a, const HeightMap& b) {
 TEST(Formats, areOffByNoMoreThanTheirSteps) {
     const HeightMap map = waves(37, 22);
     const double range = double(map.highest) - map.lowest;
-    const auto off = [&](MapFormat format) { return worstOf(map, inFormat(map, format)); };
+    const auto off = [&](MapFormat format) { return worstOf(map, encode(map, format).decoded); };
     EXPECT_EQ(off(MapFormat::real), 0);
     EXPECT_LE(off(MapFormat::half), 0.5 * 0x1p-11);
     EXPECT_LE(off(MapFormat::unorm16), 0.51 * range / 65535);
@@ -23,7 +23,7 @@ TEST(Formats, areOffByNoMoreThanTheirSteps) {
     EXPECT_GT(off(MapFormat::unorm8), 0.4 * range / 255);
     EXPECT_LE(off(MapFormat::bc4), 0.05 * range); // a fourteenth of what a block spans
     EXPECT_GT(off(MapFormat::bc4), 0);
-    const HeightMap decoded = inFormat(map, MapFormat::unorm16);
+    const HeightMap decoded = encode(map, MapFormat::unorm16).decoded;
     EXPECT_EQ(decoded.mid, 0.1);
     EXPECT_EQ(decoded.scale, 2);
     EXPECT_EQ(decoded.wrap, Wrap::clamp);
@@ -32,7 +32,7 @@ TEST(Formats, areOffByNoMoreThanTheirSteps) {
 TEST(Formats, keepAFlatMap) {
     const HeightMap flat = makeHeightMap(5, 5, std::vector<float>(25, 0.75f), 0, 1, Wrap::repeat);
     for (const MapFormat format : {MapFormat::half, MapFormat::unorm16, MapFormat::unorm8, MapFormat::bc4})
-        EXPECT_EQ(worstOf(flat, inFormat(flat, format)), 0) << nameOf(format);
+        EXPECT_EQ(worstOf(flat, encode(flat, format).decoded), 0) << int(format);
 }
 
 TEST(Bc4, hasTheBitsOfTheSpecification) {
@@ -71,22 +71,25 @@ TEST(MapWords, takeTheBytesOfEveryMip) {
     EXPECT_EQ(mapBytes(MapFormat::bc4, 8, 4), 8u * (2 + 1 + 1 + 1)); // blocks of 4 x 4, begun ones whole
     EXPECT_EQ(mapBytes(MapFormat::unorm8, 5, 3), 16u + 4 + 4);
     EXPECT_EQ(mapBytes(MapFormat::unorm8, 1, 1), 4u);
-    for (const MapFormat format : kMapFormats)
-        for (const auto& [width, height] : {std::pair(37, 22), {1, 1}, {64, 64}, {3, 100}})
-            EXPECT_EQ(wordsOf(inFormat(waves(width, height), format)).words.size() * 4, mapBytes(format, width, height))
-                << nameOf(format) << " " << width << " x " << height;
+    for (const auto& [word, format, help] : kMapFormats)
+        for (const auto& [width, height] : {std::pair(37, 22), {1, 1}, {64, 64}, {3, 100}}) {
+            const EncodedMap map = encode(waves(width, height), format);
+            EXPECT_EQ(toWords(map.decoded, map.encoding).words.size() * 4, mapBytes(format, width, height))
+                << word << " " << width << " x " << height;
+        }
 }
 
 TEST(MapWords, holdTheMapAndMipsWithinTheirRoundOff) {
-    for (const MapFormat format : kMapFormats) {
-        const HeightMap map = inFormat(waves(37, 22), format);
-        const MapWords words = wordsOf(map);
+    for (const auto& [word, format, help] : kMapFormats) {
+        const EncodedMap encoded = encode(waves(37, 22), format);
+        const HeightMap& map = encoded.decoded;
+        const MapWords words = toWords(encoded.decoded, encoded.encoding);
         ASSERT_EQ(words.firsts.size(), 6u); // 37, 18, 9, 4, 2, 1
-        EXPECT_LT(worstOf(levelOf(map, words, 0), map), 1e-7) << nameOf(format);
+        EXPECT_LT(worstOf(levelOf(encoded, words, 0), map), 1e-7) << word;
         // Means of the map's own texels, where whole squares of them make a mip's texel.
         double worst = 0;
         for (std::uint32_t level = 1; level < 4; ++level) {
-            const HeightMap mip = levelOf(map, words, level);
+            const HeightMap mip = levelOf(encoded, words, level);
             const int side = 1 << level;
             for (int y = 0; y < 22 / side; ++y)
                 for (int x = 0; x < 37 / side; ++x) {
@@ -97,25 +100,25 @@ TEST(MapWords, holdTheMapAndMipsWithinTheirRoundOff) {
                     worst = std::max(worst, std::abs(sum / (side * side) - double(stored)));
                 }
         }
-        EXPECT_LT(worst, double(words.roundOff) + 1e-6) << nameOf(format);
+        EXPECT_LT(worst, double(words.roundOff) + 1e-6) << word;
         const double range = double(map.highest) - double(map.lowest);
-        EXPECT_LT(words.roundOff, format == MapFormat::bc4 ? 0.08 * range : 0.003 * range) << nameOf(format);
+        EXPECT_LT(words.roundOff, format == MapFormat::bc4 ? 0.08 * range : 0.003 * range) << word;
     }
 }
 
 TEST(MapWords, holdNumbersThatTheirScaleTurnsIntoHeights) {
     for (const MapFormat format : {MapFormat::unorm16, MapFormat::unorm8}) {
-        const HeightMap map = inFormat(waves(16, 16), format);
-        const WordScale scale = wordScale(map);
-        const std::uint32_t word = wordsOf(map).words[0];
-        const double number = format == MapFormat::unorm16 ? word & 0xffff : word & 0xff;
-        EXPECT_NEAR(scale.scale * (number - scale.mid), map.scale * (double(map.texels[0]) - map.mid), 1e-6);
+        const EncodedMap encoded = encode(waves(16, 16), format);
+        const HeightMap& map = encoded.decoded;
+        const MapWords words = toWords(encoded.decoded, encoded.encoding);
+        const double number = words.words[0] & (format == MapFormat::unorm16 ? 0xffff : 0xff);
+        EXPECT_NEAR(words.scale * (number - words.mid), map.scale * (double(map.texels[0]) - map.mid), 1e-6);
     }
 }
 
 TEST(Formats, ofHalvesRefuseWhatIsTooLarge) {
     const HeightMap far = makeHeightMap(2, 1, {0, 1e6f}, 0, 1, Wrap::repeat);
-    expectFailure(Failure::input, {"1000000", "65504"}, [&] { inFormat(far, MapFormat::half); });
+    expectFailure(Failure::input, {"1000000", "65504"}, [&] { encode(far, MapFormat::half); });
 }
 
 TEST(Formats, ofFilesAreTheSmallestThatKeepThem) {
@@ -131,13 +134,13 @@ TEST(Formats, ofFilesAreTheSmallestThatKeepThem) {
                                              {"b.exr", SampleType::half, MapFormat::half},
                                              {"c.png", SampleType::uint16, MapFormat::unorm16},
                                              {"d.png", SampleType::uint8, MapFormat::unorm8}}) {
-        const HeightMap map = load(name, type);
-        EXPECT_EQ(map.format, format) << name;
-        EXPECT_LT(worstOf(levelOf(map, wordsOf(map), 0), map), 1e-7) << name;
+        const EncodedMap map = load(name, type);
+        EXPECT_EQ(map.encoding.format, format) << name;
+        EXPECT_LT(worstOf(levelOf(map, toWords(map.decoded, map.encoding), 0), map.decoded), 1e-7) << name;
     }
     EXPECT_EQ(fileFormat({.sample = "int16"}), MapFormat::real); // signed: half of its values are below 0
-    EXPECT_EQ(load("e.png", SampleType::uint16, MapFormat::real).format, MapFormat::real);
-    EXPECT_EQ(load("f.exr", SampleType::real, MapFormat::bc4).blocks.size(), 8u);
+    EXPECT_EQ(load("e.png", SampleType::uint16, MapFormat::real).encoding.format, MapFormat::real);
+    EXPECT_EQ(load("f.exr", SampleType::real, MapFormat::bc4).encoding.blocks.size(), 8u);
 }
 
 } // namespace

@@ -17,7 +17,7 @@ struct Voids : testing::Test {
 
     HeightMap load(const HeightOptions& options = {}) {
         warnings.lines.clear();
-        return loadHeightMap(folder / "a.tif", options, warnings.warn());
+        return loadHeightMap(folder / "a.tif", options, warnings.warn()).decoded;
     }
     /// Of floats or integers, 16 x 16, everything 100 to 115 but for the texels from (4,4) to (5,5).
     template <typename T>
@@ -133,7 +133,7 @@ TEST_F(Voids, channelsAreChosenByNameAndTheFirstOfSeveralLayersIsNamed) {
     Image image{1, 1, 2, {5, 6}};
     writeImage(folder / "a.tif.exr", image, {{"color.R", SampleType::real}, {"height.Y", SampleType::real}});
     const auto read = [&](const std::string& channel) {
-        return loadHeightMap(folder / "a.tif.exr", {.channel = channel}, warnings.warn()).texels.at(0);
+        return loadHeightMap(folder / "a.tif.exr", {.channel = channel}, warnings.warn()).decoded.texels.at(0);
     };
     EXPECT_EQ(read("height.Y"), 6);
     EXPECT_EQ(read("height"), 6);

@@ -99,10 +99,11 @@ LeafPlace leafOf(const Surface& surface, const SampleQuery& query) {
     return leaf;
 }
 
-Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis) {
+Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis, const MapEncoding& encoding = {}) {
     const Surface surface = buildSurface(c.cage, c.options);
     const ReferenceSurface reference(c.cage, c.options);
-    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = c.cage.positions, .height = &map});
+    const SurfaceModel model(device(),
+                      {.surface = &surface, .cagePositions = c.cage.positions, .height = &map, .encoding = &encoding});
     const std::vector<SampleQuery> queries = randomQueries(surface, 600);
     const std::vector<SampleResult> results = sampler().sample(model, queries, {.isGenericBasis = isGenericBasis});
     Bounds bounds;
@@ -195,13 +196,13 @@ class MapFormats : public OnDevice {};
 
 TEST_F(MapFormats, agreeWithTheReferenceThatReadsTheSame) {
     const Case c{"torus", torusWithSeams(), {.isolation = 3}};
-    for (const MapFormat format : kMapFormats)
+    for (const auto& [word, format, help] : kMapFormats)
         for (const int side : {37, 64}) {
-            const HeightMap map = inFormat(waves(side, side - 3), format);
-            const Errors e = compare(c, map, false);
-            EXPECT_LT(e.h, 2e-5) << nameOf(format);
-            EXPECT_LT(e.q, 2e-5) << nameOf(format);
-            EXPECT_LT(e.normal, 0.01) << nameOf(format);
+            const EncodedMap map = encode(waves(side, side - 3), format);
+            const Errors e = compare(c, map.decoded, false, map.encoding);
+            EXPECT_LT(e.h, 2e-5) << word;
+            EXPECT_LT(e.q, 2e-5) << word;
+            EXPECT_LT(e.normal, 0.01) << word;
         }
 }
 
@@ -210,15 +211,17 @@ TEST_F(MapFormats, haveTheirMipsOnTheDevice) {
     const Cage cage = boundaryGrid(2, 2);
     const Surface surface = buildSurface(cage, {});
     Dicer dicer(device());
-    for (const MapFormat format : kMapFormats) {
-        const HeightMap map = inFormat(waves(37, 22), format);
-        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-        EXPECT_EQ(model.height->words.buffer.bytes, mapBytes(format, 37, 22)) << nameOf(format);
-        const HeightMap mip = levelOf(map, wordsOf(map), 1);
+    for (const auto& [word, format, help] : kMapFormats) {
+        const EncodedMap map = encode(waves(37, 22), format);
+        const SurfaceModel model(
+            device(),
+            {.surface = &surface, .cagePositions = cage.positions, .height = &map.decoded, .encoding = &map.encoding});
+        EXPECT_EQ(model.height->words.buffer.bytes, mapBytes(format, 37, 22)) << word;
+        const HeightMap mip = levelOf(map, toWords(map.decoded, map.encoding), 1);
         const EdgeRates rates{uniformRates(model, 8), Spacing::equal, std::vector<float>(model.cornerFlags.size(), 1)};
         const DenseMesh mesh = dicer.diceToHost(model, rates, {.wantsTexCoords = true});
         for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            EXPECT_NEAR(mesh.positions[i].y, sampleHeight(mip, dvec2(mesh.texCoords[i])).h, 2e-5) << nameOf(format);
+            EXPECT_NEAR(mesh.positions[i].y, sampleHeight(mip, dvec2(mesh.texCoords[i])).h, 2e-5) << word;
     }
 }
 

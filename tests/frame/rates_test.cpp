@@ -58,7 +58,8 @@ TEST_F(Rates, boundsHoldEveryDisplacedPoint) {
 TEST(Bounds, areWiderByTheRoundOffOfMips) {
     const HeightMap map = waves(64, 64);
     const vec2 lower(0.25f), upper(0.5f);
-    const Range exact = HeightPyramid(map).range(lower, upper), wide = HeightPyramid(map, 0.01f).range(lower, upper);
+    const Range exact = HeightPyramid(map).range({lower, upper}),
+                wide = HeightPyramid(map, 0.01f).range({lower, upper});
     EXPECT_NEAR(wide.highest - exact.highest, 0.01 * map.scale, 1e-6);
     EXPECT_NEAR(exact.lowest - wide.lowest, 0.01 * map.scale, 1e-6);
     EXPECT_NEAR(wide.slopeS - exact.slopeS, 0.01 * 64 * map.scale, 1e-4);

@@ -13,7 +13,7 @@ struct Scenery {
     Cage cage = torusWithSeams();
     HeightMap map = sineMap(64, 0.1);
     Surface surface = buildSurface(cage, {.isolation = 2});
-    Model model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
+    SurfaceModel model{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
     Renderer renderer{device(), {.width = 96, .height = 64, .shadowSide = 128}};
     RenderOptions options;
 

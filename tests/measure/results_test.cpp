@@ -186,7 +186,7 @@ Row bandwidthRow(const std::string& contestant, double tolerance, double residen
 TEST(Goals, compareTheSmallestOfOursWithEachOpponentAtTheTightestTolerance) {
     Results results;
     results.rows = {
-        bandwidthRow("cage + float map", 1e-5, 4e6, 5e5),  bandwidthRow("cage + BC4 map", 1e-5, 1e6, 8e5),
+        bandwidthRow("cage + float map", 1e-5, 4e6, 5e5),  bandwidthRow("cage + bc4 map", 1e-5, 1e6, 8e5),
         bandwidthRow("dense mesh, raw", 1e-5, 30e6, 30e6), bandwidthRow("dense mesh, quantised", 1e-5, 5e6, 2e6),
         bandwidthRow("Draco, dense mesh", 1e-5, 0, 1e6),   bandwidthRow("dense mesh, raw", 1e-4, 1, 1)};
     const std::vector<Goal> goals = goalsOf(results);

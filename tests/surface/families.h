@@ -185,11 +185,7 @@ inline std::vector<Family> allFamilies() {
     return families;
 }
 
-inline Bounds boundsOf(const Cage& cage) {
-    Bounds bounds;
-    for (const vec3& p : cage.positions) bounds.add(dvec3(p));
-    return bounds;
-}
+inline Bounds boundsOf(const Cage& cage) { return computeBounds(cage.positions); }
 
 /// What tolerances are relative to.
 inline double sizeOf(const Cage& cage) { return boundsOf(cage).longestSide(); }

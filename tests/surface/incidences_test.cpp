@@ -17,7 +17,8 @@ TEST(EdgeIncidenceList, areThePiecesOfAllSides) {
         std::size_t count = 0;
         atPieces(surface, [&](const Piece& piece) {
             const auto incidences = all.of(piece.edge);
-            EXPECT_EQ(std::ranges::count_if(incidences, [&](const Incidence& t) { return isSame(t, piece.incidence); }), 1);
+            EXPECT_EQ(std::ranges::count_if(incidences, [&](const Incidence& t) { return isSame(t, piece.incidence); }),
+                      1);
             ++count;
         });
         EXPECT_EQ(all.incidences.size(), count);
@@ -25,10 +26,10 @@ TEST(EdgeIncidenceList, areThePiecesOfAllSides) {
             ASSERT_FALSE(all.of(i).empty());
             EXPECT_TRUE(isSame(all.of(i).front(), surface.edges[i].owner)) << "edge " << i;
             EXPECT_TRUE(std::ranges::is_sorted(all.of(i), {}, &Incidence::face));
-            const auto agreed =
+            const auto listed =
                 std::span(surface.incidences).subspan(surface.edges[i].firstIncidence, surface.edges[i].incidenceCount);
-            if (!agreed.empty()) {
-                EXPECT_TRUE(std::ranges::equal(agreed, all.of(i), isSame)) << "edge " << i;
+            if (!listed.empty()) {
+                EXPECT_TRUE(std::ranges::equal(listed, all.of(i), isSame)) << "edge " << i;
             }
         }
     }

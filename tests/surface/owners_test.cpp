@@ -34,7 +34,8 @@ std::vector<std::vector<Incidence>> gatherCornerIncidences(const Surface& surfac
         const Edge& edge = surface.edges[piece.edge];
         const float start = std::min(piece.incidence.start, piece.incidence.end);
         const bool isReversed = piece.incidence.start > piece.incidence.end;
-        incidences.at(edge.corners[isReversed ? 1 : 0]).push_back({piece.incidence.face, piece.incidence.side, start, start});
+        incidences.at(edge.corners[isReversed ? 1 : 0])
+            .push_back({piece.incidence.face, piece.incidence.side, start, start});
     });
     return incidences;
 }
@@ -102,7 +103,8 @@ TEST(Edges, AreOwnedByTheLowestFaceWithIncidencesInOrder) {
             EXPECT_LT(edge.owner.start, edge.owner.end);
             const auto incidences = incidencesOf(surface, edge);
             if (!incidences.empty()) {
-                EXPECT_TRUE(std::equal(incidences.begin(), incidences.end(), gathered[i].begin(), gathered[i].end(), isSame))
+                EXPECT_TRUE(
+                    std::equal(incidences.begin(), incidences.end(), gathered[i].begin(), gathered[i].end(), isSame))
                     << "edge " << i;
             }
         }
@@ -119,7 +121,8 @@ TEST(Corners, AreOwnedByTheLowestFaceWithIncidencesInOrder) {
             EXPECT_TRUE(isSame(corner.owner, gathered[i].front())) << "corner " << i;
             const auto incidences = incidencesOf(surface, corner);
             if (!incidences.empty()) {
-                EXPECT_TRUE(std::equal(incidences.begin(), incidences.end(), gathered[i].begin(), gathered[i].end(), isSame))
+                EXPECT_TRUE(
+                    std::equal(incidences.begin(), incidences.end(), gathered[i].begin(), gathered[i].end(), isSame))
                     << "corner " << i;
             }
         }
@@ -147,7 +150,7 @@ TEST(Edges, OfSplitSidesAreConsecutivePartners) {
     });
 }
 
-// Where faces see different normals, the direction of displacement must be agreed: no incidences means one normal.
+// Where faces see different normals, they share a direction of displacement: no incidences means one normal.
 TEST(Incidences, AreListedWhereverNormalsDisagree) {
     forFamilies(6, [](const Family& family, const Surface& surface) {
         const ReferenceSurface reference(family.cage, {family.scheme, 6});
@@ -159,12 +162,14 @@ TEST(Incidences, AreListedWhereverNormalsDisagree) {
             if (surface.edges[i].incidenceCount > 0) continue;
             for (const Incidence& incidence : edgeIncidences[i])
                 for (const double t : {0.02, 0.3, 0.7})
-                    EXPECT_LE(degreesBetween(normalAt(incidence, t), normalAt(edgeIncidences[i][0], t)), 1.0) << "edge " << i;
+                    EXPECT_LE(degreesBetween(normalAt(incidence, t), normalAt(edgeIncidences[i][0], t)), 1.0)
+                        << "edge " << i;
         }
         for (std::size_t i = 0; i < surface.corners.size(); ++i) {
             if (surface.corners[i].incidenceCount > 0) continue;
             for (const Incidence& incidence : cornerIncidences[i])
-                EXPECT_LE(degreesBetween(normalAt(incidence, 0), normalAt(cornerIncidences[i][0], 0)), 1.0) << "corner " << i;
+                EXPECT_LE(degreesBetween(normalAt(incidence, 0), normalAt(cornerIncidences[i][0], 0)), 1.0)
+                    << "corner " << i;
         }
     });
 }
@@ -227,8 +232,9 @@ TEST(Incidences, NameAllFansOfAVertex) {
     std::vector<std::uint32_t> faces;
     for (const Corner& corner : surface.corners) {
         const auto incidences = incidencesOf(surface, corner);
-        const bool isMeeting = std::any_of(incidences.begin(), incidences.end(), [](const Incidence& t) { return t.face < 6; }) &&
-                               std::any_of(incidences.begin(), incidences.end(), [](const Incidence& t) { return t.face >= 6; });
+        const bool isMeeting =
+            std::any_of(incidences.begin(), incidences.end(), [](const Incidence& t) { return t.face < 6; }) &&
+            std::any_of(incidences.begin(), incidences.end(), [](const Incidence& t) { return t.face >= 6; });
         if (!isMeeting) continue;
         for (const Incidence& incidence : incidences) faces.push_back(incidence.face);
     }
