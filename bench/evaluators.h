@@ -9,7 +9,7 @@
 
 namespace relief::bench {
 
-/// A point of a face of the cage; (u,v) runs from the face's first corner along its first and last edge.
+/// A point of a face of the cage; u and v are 0 at the face's first corner and run along its first and last edge.
 struct PatchPoint {
     std::uint32_t face = 0;
     float u = 0, v = 0;

@@ -117,7 +117,7 @@ std::string drawSceneFigures(const std::vector<const Row*>& rows) {
                         .yScale = Scale::decibels,
                         .isYLog = false,
                         .lines = makeLines(rows, take(Metric::residentBytes), take(Metric::picturePsnr))});
-    // The same as ratios.
+    // What meshes take, divided by what cage and map take.
     html += drawEqualErrorFigure(
         rows, "Break-even at equal error, on the device", Metric::residentBytes,
         {Method::denseRaw, Method::denseQuantised, Method::simplifiedRaw, Method::simplifiedQuantised});

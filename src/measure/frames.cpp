@@ -27,7 +27,7 @@ Renderer makeRenderer(SuiteContext& context, int side) {
     return Renderer(context.device, {.width = side, .height = side, .shadowSide = 1});
 }
 
-/// Times every path and the dense mesh of the same triangles; a row for each.
+/// Times every path, and the dense mesh of the same triangles. Adds a row like `row` for each.
 void timeAllMethods(SuiteContext& context, const SceneOnDevice& on, Renderer& renderer, int rate, int roundCount,
                     Row row) {
     std::vector<TimedDrawing> drawings = listPaths(on, context.device.traits(), rate);

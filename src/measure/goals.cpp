@@ -119,7 +119,7 @@ std::optional<double> evaluate(const Goal& goal, std::vector<const Row*> rows) {
 } // namespace
 
 std::vector<Goal> parseGoals(const std::string& text, const std::string& name) {
-    std::string place; // of the error: the file, or the goal in it
+    std::string place; // of an error: the goal being read
     try {
         const GoalJson all = GoalJson::parse(text);
         if (!all.is_object() || all.value("schema", GoalJson()) != kGoalSchema)
@@ -128,6 +128,7 @@ std::vector<Goal> parseGoals(const std::string& text, const std::string& name) {
             fail(Failure::input, "{}: version {} of the goals is not read; this relief reads {}", name,
                  all.at("version").dump(), kGoalVersion);
         checkKeys(all, {"schema", "version", "goals"});
+        // Errors from here on name the goal by its number.
         std::vector<Goal> goals;
         for (const GoalJson& goal : all.at("goals")) {
             place = fmt::format("goal {}: ", goals.size());
@@ -156,7 +157,8 @@ std::string formatGoal(const Goal& goal, double figure) {
     const Unit unit = describe(goal.metric).unit;
     if (!goal.subject.dividedBy.empty() || unit == Unit::ratio) return formatNumber(figure, Scale::ratio);
     if (unit == Unit::bytes) return formatNumber(figure, Scale::bytes);
-    return fmt::format("{:.3g} {}", figure, toWord(unit));
+    const std::string word = toWord(unit);
+    return fmt::format("{:.3g}{}{}", figure, word.empty() ? "" : " ", word);
 }
 
 std::vector<const Row*> selectRows(const Results& results, Suite suite, Axis axis) {

@@ -44,7 +44,7 @@ void measureStartup(SuiteContext& context, const TestScene& scene) {
     const RenderProcess render = startProcesses(context, scene);
     const double edgePixels = context.options.isQuick ? 16 : 4;
 
-    // The same frame in this process, once to compile its shaders.
+    // The frame of those processes in this process, drawn once to compile its shaders.
     const SceneOnDevice on(context.device, scene);
     Renderer renderer(context.device, {.width = 1024, .height = 1024});
     RenderOptions options = on.renderOptions(1);

@@ -86,7 +86,7 @@ std::string makeTables(const Results& results, Suite suite) {
     return html;
 }
 
-/// What the report says of one suite.
+/// The part of the report about one suite: texts in HTML.
 struct Section {
     Suite suite;
     const char* title;

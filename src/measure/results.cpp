@@ -50,7 +50,7 @@ void Row::addComputed(Metric metric, double sample) {
 
 namespace {
 
-/// The same row in another run has the same key.
+/// Identifies a row within its results: rows of two results with equal keys are compared.
 std::string makeKey(const Row& row) {
     return fmt::format("{} / {} / {}{}", toWord(row.suite), row.scene, toWord(row.method),
                        row.axis == Axis::none ? "" : fmt::format(" / {} {:g}", toWord(row.axis), row.at));

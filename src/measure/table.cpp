@@ -57,6 +57,7 @@ std::string toTable(const Results& results, std::span<const Goal> goals) {
     std::string text;
     for (const auto* part : {&results.program, &results.machine, &results.device, &results.settings})
         for (const auto& [key, value] : *part) text += fmt::format("{:28} {}\n", key, value);
+
     // Neighbouring rows of one suite, scene and axis share a table.
     std::vector<const Row*> rows;
     for (std::size_t i = 0; i < results.rows.size(); ++i) {
@@ -68,14 +69,16 @@ std::string toTable(const Results& results, std::span<const Goal> goals) {
         text += fmt::format("\n{}: {}\n{}", toWord(row.suite), row.scene, makeTextTable(rows));
         rows.clear();
     }
+
+    // Notes and goals, a line each.
     if (!results.notes.empty()) text += '\n';
     for (const std::string& note : results.notes) text += "note: " + note + '\n';
     const std::vector<GoalResult> evaluated = evaluateGoals(goals, results);
     if (!evaluated.empty()) text += '\n';
     for (const GoalResult& result : evaluated)
-        text += fmt::format("goal {}: {}, {}: {}, wanted {} {}\n", result.isMet() ? "met" : "missed", result.goal.name,
-                            result.scene, formatGoal(result.goal, result.found),
-                            result.goal.isAtLeast ? "at least" : "at most", formatGoal(result.goal, result.goal.value));
+        text += fmt::format("goal {}: {}, wanted {} {}: {} ({})\n", result.isMet() ? "met" : "missed",
+                            formatGoal(result.goal, result.found), result.goal.isAtLeast ? "at least" : "at most",
+                            formatGoal(result.goal, result.goal.value), result.goal.name, result.scene);
     return text;
 }
 

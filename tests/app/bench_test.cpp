@@ -79,8 +79,8 @@ TEST(Bench, reportsGoalsAsMetOrMissed) {
     putFile(goals, makeGoals("frame time", 11));
     const Outcome met = relief({"bench", "--from", runs.before, "--goals", goals});
     EXPECT_EQ(met.exitCode, 0) << met.err;
-    EXPECT_TRUE(contains(met.out, "goal met: grid: frame, ball: 10 ms, wanted at most 11 ms")) << met.out;
-    EXPECT_TRUE(contains(relief({"bench", "--from", runs.after, "--goals", goals}).out, "goal missed: grid: frame"));
+    EXPECT_TRUE(contains(met.out, "goal met: 10 ms, wanted at most 11 ms: grid: frame (ball)")) << met.out;
+    EXPECT_TRUE(contains(relief({"bench", "--from", runs.after, "--goals", goals}).out, "goal missed: 12 ms"));
     expectDone(relief({"bench", "--from", runs.after, "--goals", goals, "--report", report}));
     EXPECT_TRUE(contains(readFile(report), "Figures to reach"));
     EXPECT_TRUE(contains(readFile(report), "&lt;it is far&gt;"));
