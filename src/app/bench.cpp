@@ -124,6 +124,7 @@ void addFiles(CLI::App& app, BenchArgs& args) {
 } // namespace
 
 Run addBench(CLI::App& app) {
+    // What is measured.
     auto args = std::make_shared<BenchArgs>();
     std::vector<std::string> suites;
     for (const Suite suite : allSuites()) suites.emplace_back(toWord(suite));
@@ -133,6 +134,7 @@ Run addBench(CLI::App& app) {
     app.add_flag("--quick", args->isQuick, "small scenes, few rounds: half a minute, for a first look");
     app.add_option("--cage", args->surface.cage, "a cage of your own (.obj), with its --height")->option_text("CAGE");
     addSurfaceOptions(app, args->surface);
+    // Where results go, and how the run behaves.
     addFiles(app, *args);
     addDevice(app, args->device);
     app.add_flag("-q,--quiet", args->isQuiet, "no warnings")->group("output");

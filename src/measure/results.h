@@ -15,62 +15,26 @@ namespace relief {
 enum class Unit { number, milliseconds, microseconds, nanoseconds, bytes, ratio, diagonal, white, decibels };
 
 /// What a value is. describe() has its name, its unit and what it means.
+// clang-format off
 enum class Metric {
-    // times of one frame
-    frameTime,
-    trianglePassTime,
-    ratePassTime,
-    dicePassTime,
-    colorPassTime,
-    lightPassTime,
-    poseTime,
-    // counts of one frame
-    triangles,
-    distinctVertices,
-    vertexInvocations,
-    tessellationInvocations,
-    primitives,
-    clippedPrimitives,
+    // Times of one frame.
+    frameTime, trianglePassTime, ratePassTime, dicePassTime, colorPassTime, lightPassTime, poseTime,
+    // Counts of one frame.
+    triangles, distinctVertices, vertexInvocations, tessellationInvocations, primitives, clippedPrimitives,
     fragmentInvocations,
-    // bytes
-    residentBytes,
-    diskBytes,
-    bytesReadCached,
-    bytesReadUncached,
-    uploadedBytes,
-    // errors, and what meets a tolerance
-    rmsError,
-    hausdorffError,
-    pictureRmse,
-    picturePsnr,
-    mapColumns,
-    rate,
-    isolation,
-    positionBits,
-    mapFileExrZip,
-    mapFileExrPiz,
-    mapFilePng,
-    mapFileBlocks,
-    // scaling
-    costPerTriangle,
-    costPerAdditionalTriangle,
-    tableTime,
-    uploadTime,
-    preparationPerFace,
-    // memory of a process
-    surfaceAndMapBytes,
-    bufferBytes,
-    bufferBytesAtRate1,
-    processBytes,
-    processBytesAtRate1,
-    memoryPerBufferByte,
-    // starting up
-    coldRunTime,
-    warmRunTime,
-    deviceOpenTime,
-    warmFrameTime,
-    coldRunPerFrame,
+    // Bytes.
+    residentBytes, diskBytes, bytesReadCached, bytesReadUncached, uploadedBytes,
+    // Errors, and the compression that meets a tolerance.
+    rmsError, hausdorffError, pictureRmse, picturePsnr, mapColumns, rate, isolation, positionBits, mapFileExrZip,
+    mapFileExrPiz, mapFilePng, mapFileBlocks,
+    // Costs per triangle and per face.
+    costPerTriangle, costPerAdditionalTriangle, tableTime, uploadTime, preparationPerFace,
+    // Memory of a process.
+    surfaceAndMapBytes, bufferBytes, bufferBytesAtRate1, processBytes, processBytesAtRate1, memoryPerBufferByte,
+    // Starting up.
+    coldRunTime, warmRunTime, deviceOpenTime, warmFrameTime, coldRunPerFrame
 };
+// clang-format on
 struct MetricInfo {
     Metric metric;
     const char* name; ///< as files and tables spell it
@@ -80,31 +44,17 @@ struct MetricInfo {
 const MetricInfo& describe(Metric metric);
 
 /// How a surface is stored or drawn, or what else a row is about.
+// clang-format off
 enum class Method {
-    cageFloatMap,
-    cageHalfMap,
-    cageUnorm16Map,
-    cageUnorm8Map,
-    cageBc4Map,
-    denseRaw,
-    denseQuantised,
-    denseDraco,
-    simplifiedRaw,
-    simplifiedQuantised,
-    simplifiedDraco,
-    tessellation,
-    grid,
-    dicing,
-    posedCage,
-    posedCageTessellation,
-    posedCageDicing,
-    denseSkinnedOnDevice,
-    densePosedOnHost,
-    preparation,
-    reliefRender,
+    cageFloatMap, cageHalfMap, cageUnorm16Map, cageUnorm8Map, cageBc4Map,
+    denseRaw, denseQuantised, denseDraco, simplifiedRaw, simplifiedQuantised, simplifiedDraco,
+    tessellation, grid, dicing,
+    posedCage, posedCageTessellation, posedCageDicing, denseSkinnedOnDevice, densePosedOnHost,
+    preparation, reliefRender
 };
+// clang-format on
 enum class Suite { bandwidth, frame, animate, memory, scaling, startup };
-/// What a suite varies: `pixelTriangles` are triangles in a picture that has one pixel for each.
+/// What a suite varies. `pixelTriangles` are triangles in a picture that has one pixel for each.
 enum class Axis { none, tolerance, triangles, pixelTriangles, faces };
 /// Whether a value was measured (also by counting or writing a file) or computed from measured values.
 enum class Origin { measured, computed };

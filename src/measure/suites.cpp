@@ -80,6 +80,7 @@ Results runSuites(std::span<const Suite> suites, std::span<const TestScene> scen
     Device device({.name = options.device});
     addDescriptions(results, device.traits(), options, scenes);
 
+    // Progress counts the steps of all wanted suites.
     const auto isWanted = [&](const SuiteEntry& entry) {
         return std::ranges::find(suites, entry.suite) != suites.end();
     };
@@ -91,6 +92,7 @@ Results runSuites(std::span<const Suite> suites, std::span<const TestScene> scen
         if (isWanted(entry)) steps += entry.steps * selectScenes(entry).size();
     Progress progress("measuring", std::max<std::uint64_t>(steps, 1), options.progress);
 
+    // The suites, with the seconds that each takes.
     SuiteContext context{device, options, results, progress};
     for (const SuiteEntry& entry : kSuiteEntries) {
         if (!isWanted(entry)) continue;
