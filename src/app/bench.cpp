@@ -108,7 +108,9 @@ void addFiles(CLI::App& app, BenchArgs& args) {
     app.add_option("--from", args.from, "measure nothing: read results that --json has written")
         ->option_text("FILE")
         ->group(group);
-    CLI::Option* goals = app.add_option("--goals", args.goals, "figures to reach, reported as met or missed (JSON)");
+    CLI::Option* goals =
+        app.add_option("--goals", args.goals,
+                       "figures to reach, reported as met or missed (JSON: see bench/goals.json of the source)");
     goals->option_text("FILE")->group(group);
     app.add_option("--compare", args.compared, "measure nothing: print the ratios of the second results to the first")
         ->expected(2)
