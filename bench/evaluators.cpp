@@ -28,16 +28,16 @@ struct FirstFrame {
     dvec3 p, pu, pv;
 };
 
-/// Evaluates all points at each call, into memory of its own.
+/// Evaluates all points at each call, into its own memory.
 class Evaluator {
 public:
     virtual ~Evaluator() = default;
     [[nodiscard]] virtual std::string name() const = 0;
     virtual void evaluate() = 0;
-    [[nodiscard]] virtual FirstFrame at(std::size_t point) const = 0; ///< of the last call
+    [[nodiscard]] virtual FirstFrame at(std::size_t point) const = 0; ///< result of the last call
 };
 
-/// Three vectors a point, one array each.
+/// Three vectors per point, in an array each.
 struct Results {
     std::vector<vec3> p, pu, pv;
 
@@ -45,9 +45,9 @@ struct Results {
     [[nodiscard]] FirstFrame at(std::size_t i) const { return {dvec3(p[i]), dvec3(pu[i]), dvec3(pv[i])}; }
 };
 
-float* floatsOf(std::vector<vec3>& values) { return &values.front().x; }
+float* toFloats(std::vector<vec3>& values) { return &values.front().x; }
 
-/// OpenSubdiv's tables with refined points and a patch for every point: what its evaluators start from.
+/// What OpenSubdiv's evaluators take: its tables, the refined points, and the patch of every point.
 struct OsdInput {
     FarTables tables;
     Osd::CpuPatchTable patches;
@@ -72,8 +72,8 @@ public:
     [[nodiscard]] std::string name() const override { return name_; }
     void evaluate() override {
         const Osd::BufferDescriptor vectors(0, 3, 3);
-        Backend::EvalPatches(&input_.controlPoints.front().x, vectors, floatsOf(results_.p), vectors,
-                             floatsOf(results_.pu), vectors, floatsOf(results_.pv), vectors, int(input_.coords.size()),
+        Backend::EvalPatches(&input_.controlPoints.front().x, vectors, toFloats(results_.p), vectors,
+                             toFloats(results_.pu), vectors, toFloats(results_.pv), vectors, int(input_.coords.size()),
                              input_.coords.data(), input_.patches.GetPatchArrayBuffer(),
                              input_.patches.GetPatchIndexBuffer(), input_.patches.GetPatchParamBuffer());
     }
@@ -85,12 +85,12 @@ private:
     Results results_;
 };
 
-/// What a programmer would write on top of Far: its basis weights, our own sums.
+/// A loop over Far as its users write it: basis weights by Far, sums by hand.
 class FarEvaluator : public Evaluator {
 public:
     explicit FarEvaluator(const OsdInput& input) : input_(input), results_(input.coords.size()) {}
 
-    [[nodiscard]] std::string name() const override { return "OpenSubdiv Far, own loop"; }
+    [[nodiscard]] std::string name() const override { return "OpenSubdiv Far, plain loop"; }
     void evaluate() override {
         const std::size_t count = input_.coords.size();
 #pragma omp parallel for schedule(static)
@@ -116,8 +116,8 @@ private:
     Results results_;
 };
 
-/// Embree wants the points as arrays and gives components as arrays. Batches go to the threads as they come free;
-/// within a batch Embree evaluates runs of points of one face together, which points sorted by face make the most of.
+/// Embree takes points as arrays and returns an array per component. Each thread takes the next batch when it is free.
+/// Within a batch Embree evaluates neighbouring points of one face together; points sorted by face are its best case.
 class EmbreeEvaluator : public Evaluator {
 public:
     EmbreeEvaluator(const Cage& cage, std::span<const PatchPoint> points)
@@ -128,7 +128,7 @@ public:
             u_.push_back(point.u);
             v_.push_back(point.v);
         }
-        while (faces_.size() % 4 != 0) { // it works on fours and stores them as aligned vectors, or crashes
+        while (faces_.size() % 4 != 0) { // rtcInterpolateN stores four at a time, aligned
             faces_.push_back(faces_.back());
             u_.push_back(u_.back());
             v_.push_back(v_.back());
@@ -161,9 +161,10 @@ private:
     }
 
     void makeGeometry(const Cage& cage) {
+        // Faces, points, creases and sharp vertices as the cage has them.
         geometry_ = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SUBDIVISION);
         positions_ = cage.positions;
-        positions_.emplace_back(0); // Embree reads 16 bytes a vertex
+        positions_.emplace_back(0); // Embree reads 16 bytes per vertex, also of the last one
         setBuffer(RTC_BUFFER_TYPE_FACE, RTC_FORMAT_UINT, cage.faceSizes.data(), 4, cage.faceCount());
         setBuffer(RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, cage.corners.data(), 4, cage.corners.size());
         setBuffer(RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, positions_.data(), 12, cage.positions.size());
@@ -179,8 +180,9 @@ private:
                                       cage.boundaryRule == BoundaryRule::edgeAndCorner
                                           ? RTC_SUBDIVISION_MODE_PIN_CORNERS
                                           : RTC_SUBDIVISION_MODE_SMOOTH_BOUNDARY);
+        // Interpolation needs what the commit of a scene makes of the geometry.
         rtcCommitGeometry(geometry_);
-        scene_ = rtcNewScene(device_); // its commit makes what interpolation needs of the geometry
+        scene_ = rtcNewScene(device_);
         rtcAttachGeometry(scene_, geometry_);
         rtcCommitScene(scene_);
         if (const RTCError error = rtcGetDeviceError(device_); error != RTC_ERROR_NONE)
@@ -188,6 +190,7 @@ private:
     }
 
     void evaluateBatch(std::size_t first, std::size_t count) {
+        RELIEF_CHECK(first + count <= faces_.size());
         RTCInterpolateNArguments arguments{};
         arguments.geometry = geometry_;
         arguments.primIDs = &faces_[first];
@@ -202,7 +205,7 @@ private:
         rtcInterpolateN(&arguments);
     }
 
-    /// A batch lies as x x ... y y ... z z ...
+    /// Within a batch all x come first, then all y, then all z.
     [[nodiscard]] dvec3 vectorAt(const std::vector<float>& values, std::size_t point) const {
         const std::size_t first = point / batch_ * batch_, count = std::min(batch_, faces_.size() - first);
         const float* x = &values[3 * first + (point - first)];
@@ -210,7 +213,7 @@ private:
     }
 
     RTCDevice device_;
-    std::size_t batch_; ///< points a call
+    std::size_t batch_; ///< points per call
     RTCGeometry geometry_ = nullptr;
     RTCScene scene_ = nullptr;
     std::vector<vec3> positions_;
@@ -232,7 +235,7 @@ void checkCage(const Cage& cage, std::span<const PatchPoint> points) {
     }
 }
 
-/// Fills in the errors of `time`; `evaluator` has evaluated.
+/// Fills in the errors of `time` from the last evaluation. Throws Failure::check where they are too large.
 void compare(const Evaluator& evaluator, const ReferenceSurface& reference, std::span<const PatchPoint> points,
              double longestSide, EvaluatorTime& time) {
     const std::size_t step = std::max<std::size_t>(points.size() / kCheckedCount, 1);
@@ -251,13 +254,13 @@ void compare(const Evaluator& evaluator, const ReferenceSurface& reference, std:
     }
     if (!(time.pointError <= kPointTolerance && time.slopeError <= kSlopeTolerance))
         fail(Failure::check,
-             "{} does not give the limit surface: points are off by {:.1e} of the box, slopes by {:.1e}", time.name,
+             "{} does not evaluate the limit surface: errors of {:.1e} in points and {:.1e} in derivatives", time.name,
              time.pointError, time.slopeError);
 }
 
 } // namespace
 
-std::vector<PatchPoint> gridPoints(const Cage& cage, int rate) {
+std::vector<PatchPoint> makeGridPoints(const Cage& cage, int rate) {
     std::vector<PatchPoint> points;
     points.reserve(cage.faceCount() * std::size_t(rate + 1) * std::size_t(rate + 1));
     for (std::uint32_t face = 0; face < cage.faceCount(); ++face)
@@ -268,6 +271,7 @@ std::vector<PatchPoint> gridPoints(const Cage& cage, int rate) {
 
 std::vector<EvaluatorTime> timeEvaluators(const Cage& cage, int isolation, std::span<const PatchPoint> points,
                                           const std::function<void()>& others) {
+    // Everything is ready before the first round.
     checkCage(cage, points);
     const OsdInput input(cage, isolation, points);
     std::vector<std::unique_ptr<Evaluator>> evaluators;
@@ -276,15 +280,17 @@ std::vector<EvaluatorTime> timeEvaluators(const Cage& cage, int isolation, std::
     evaluators.push_back(std::make_unique<FarEvaluator>(input));
     evaluators.push_back(std::make_unique<EmbreeEvaluator>(cage, points));
 
+    // Interleaved rounds. The first one starts threads and touches memory.
     std::vector<std::vector<double>> rounds(evaluators.size());
     for (int round = 0; round <= kRounds; ++round) {
         others();
         for (std::size_t i = 0; i < evaluators.size(); ++i) {
-            const double ms = millisecondsOf([&] { evaluators[i]->evaluate(); });
-            if (round > 0) rounds[i].push_back(ms); // the first one starts threads and touches memory
+            const double ms = measureMilliseconds([&] { evaluators[i]->evaluate(); });
+            if (round > 0) rounds[i].push_back(ms);
         }
     }
 
+    // The results of the last round, compared with the reference.
     const ReferenceSurface reference(cage, {.isolation = isolation});
     Bounds bounds;
     for (const vec3& p : cage.positions) bounds.add(dvec3(p));

@@ -1,5 +1,6 @@
-// relief_bench, for developers: what splitting draws is worth on this device; the dicer next to other evaluators.
-// Absolute times are noise between runs: quote the ratios. Everything else is `relief bench`.
+// relief_bench, for developers: the dicer and the poser beside evaluators of other projects, and draws split by
+// vertices. Absolute times vary between runs: quote ratios within one run. (What users measure is `relief bench`:
+// src/measure.)
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -18,21 +19,21 @@
 namespace {
 
 using namespace relief;
-using bench::median;
+using bench::computeMedian;
 
 constexpr int kRounds = 7;
 constexpr std::uint64_t kTriangles = 1'000'000;
 
-/// The production cage where it is at hand (RELIEF_DATA), else the project's own torus.
-std::string cagePath() {
+/// The production cage in the folder RELIEF_DATA where it is there, else the project's own torus.
+std::string findCage() {
     const char* data = std::getenv("RELIEF_DATA");
     const std::string folder = data != nullptr ? data : RELIEF_SOURCE "/../shared/data";
     const std::string production = folder + "/bigguy.obj";
     return std::filesystem::exists(production) ? production : RELIEF_SOURCE "/meshes/torus.obj";
 }
 
-/// Smooth bumps of a few texels' width, half a percent of the cage high.
-HeightMap bumps(int side, double amplitude) {
+/// A square map of 64 x 64 smooth bumps; `amplitude` in cage units.
+HeightMap makeBumps(int side, double amplitude) {
     std::vector<float> texels(std::size_t(side) * side);
     for (int y = 0; y < side; ++y)
         for (int x = 0; x < side; ++x)
@@ -41,9 +42,9 @@ HeightMap bumps(int side, double amplitude) {
     return makeHeightMap(side, side, std::move(texels), 0, amplitude, Wrap::repeat);
 }
 
-/// Cage, map, surface and camera that all cases share.
-struct Subject {
-    std::string path = cagePath();
+/// The cage, map, surface and camera of all comparisons, at a rate of a million triangles.
+struct TestSurface {
+    std::string path = findCage();
     Cage cage = readCage(path);
     Surface surface = buildSurface(cage, {});
     ReferenceSurface reference{cage, {.isolation = 3}};
@@ -52,9 +53,9 @@ struct Subject {
     RenderOptions options;
     int rate = 1;
 
-    Subject() {
+    TestSurface() {
         for (const vec3& p : cage.positions) bounds.add(dvec3(p));
-        map = bumps(2048, 0.002 * bounds.diagonal());
+        map = makeBumps(2048, 0.002 * bounds.diagonal());
         const std::vector<dvec3> points = outline(reference, &map);
         options.camera = frameCamera(points, {}, 1);
         options.bounds = bounds;
@@ -64,26 +65,26 @@ struct Subject {
     }
 };
 
-/// One contestant of `dice`: what it makes, how much of it, and how long that takes.
-struct Contestant {
+/// One line of `dice`: an evaluator, and how long it takes for how many points.
+struct Timing {
     std::string name, what;
-    std::size_t count = 0;
+    std::size_t count = 0;      ///< points
     std::vector<double> rounds; ///< milliseconds
 
-    [[nodiscard]] double rate() const { return double(count) / median(rounds) / 1e3; } ///< million a second
+    [[nodiscard]] double pointsPerSecond() const { return double(count) / computeMedian(rounds) / 1e3; } ///< millions
 };
 
-/// Dices one model each round; of the same mesh, the vertices alone and with the triangles between them.
-class DiceContest {
+/// Dices one model per round, and times its vertices alone and the whole mesh.
+class TimedDicing {
 public:
-    DiceContest(Device& device, const SurfaceModel& model, const EdgeRates& rates, NormalKind normal, const std::string& what)
+    TimedDicing(Device& device, const SurfaceModel& model, const EdgeRates& rates, NormalKind normal, const std::string& what)
         : dicer_(device), model_(model), rates_(rates),
           normal_(normal), vertices_{"relief dicer, vertices", what, 0, {}}, mesh_{"relief dicer, with triangles",
                                                                                    what,
                                                                                    0,
                                                                                    {}} {}
 
-    /// The first round compiles shaders: it does not count.
+    /// One round. The first one compiles shaders and is not counted.
     void run() {
         const DicedMesh mesh = dicer_.dice(model_, rates_, {.normal = normal_, .timesVertices = true});
         vertices_.count = mesh_.count = mesh.vertexCount;
@@ -93,97 +94,99 @@ public:
         }
         isWarm_ = true;
     }
-    [[nodiscard]] const Contestant& vertices() const { return vertices_; }
-    [[nodiscard]] const Contestant& mesh() const { return mesh_; }
+    [[nodiscard]] const Timing& vertices() const { return vertices_; }
+    [[nodiscard]] const Timing& mesh() const { return mesh_; }
 
 private:
     Dicer dicer_;
     const SurfaceModel& model_;
     const EdgeRates& rates_;
     NormalKind normal_;
-    Contestant vertices_, mesh_;
+    Timing vertices_, mesh_;
     bool isWarm_ = false;
 };
 
-/// The evaluators of others beside `dice`, or none where they are not built in.
-std::vector<Contestant> timeOpponents(const Subject& subject, int isolation, const std::function<void()>& dice) {
-    std::vector<Contestant> opponents;
+/// Times other evaluators in rounds interleaved with `dice`; none where they are not built in.
+std::vector<Timing> timeEvaluators(const TestSurface& test, int isolation, const std::function<void()>& dice) {
+    std::vector<Timing> otherTimings;
 #ifdef RELIEF_EVALUATORS
-    const std::vector<bench::PatchPoint> points = bench::gridPoints(subject.cage, subject.rate);
-    for (const bench::EvaluatorTime& time : bench::timeEvaluators(subject.cage, isolation, points, dice))
-        opponents.push_back(
+    const std::vector<bench::PatchPoint> points = bench::makeGridPoints(test.cage, test.rate);
+    for (const bench::EvaluatorTime& time : bench::timeEvaluators(test.cage, isolation, points, dice))
+        otherTimings.push_back(
             {time.name,
-             fmt::format("p, p_u, p_v; off by {:.0e}, {:.0e} in end caps", time.pointError, time.endCapError),
+             fmt::format("p, p_u, p_v; errors {:.0e}, {:.0e} in end caps", time.pointError, time.endCapError),
              points.size(), time.rounds});
 #else
-    (void)subject, (void)isolation;
-    std::cout << "dice: relief_bench was built without Embree or OpenMP: there are no opponents\n";
+    (void)test, (void)isolation;
+    std::cout << "dice: relief_bench was built without Embree or OpenMP: there is nothing to compare with\n";
     for (int round = 0; round <= kRounds; ++round) dice();
 #endif
-    return opponents;
+    return otherTimings;
 }
 
-/// Ratios are to the fastest of `opponents`.
-void print(const std::vector<Contestant>& own, const std::vector<Contestant>& opponents) {
-    double fastest = 0;
-    for (const Contestant& c : opponents) fastest = std::max(fastest, c.rate());
-    for (const std::vector<Contestant>* all : {&own, &opponents})
-        for (const Contestant& c : *all)
-            std::cout << fmt::format("{:28} {:8} points {:7.1f} ms (least {:6.1f}) {:6.2f} M/s {:>8}  {}\n", c.name,
-                                     c.count, median(c.rounds), *std::ranges::min_element(c.rounds), c.rate(),
-                                     fastest > 0 ? fmt::format("{:.2f} x", c.rate() / fastest) : "", c.what);
+/// Prints a line per evaluator, with its speed relative to the fastest of `otherTimings`.
+void printTimings(const std::vector<Timing>& own, const std::vector<Timing>& otherTimings) {
+    double fastest = 0; // million points per second
+    for (const Timing& c : otherTimings) fastest = std::max(fastest, c.pointsPerSecond());
+    for (const std::vector<Timing>* all : {&own, &otherTimings})
+        for (const Timing& c : *all)
+            std::cout << fmt::format("{:28} {:8} points {:7.1f} ms (min {:6.1f}) {:6.2f} M/s {:>8}  {}\n", c.name,
+                                     c.count, computeMedian(c.rounds), *std::ranges::min_element(c.rounds),
+                                     c.pointsPerSecond(),
+                                     fastest > 0 ? fmt::format("{:.2f} x", c.pointsPerSecond() / fastest) : "", c.what);
 }
 
-/// Displaced vertices per second of the dicer, next to the evaluators of others on the processor.
+/// Compares the displaced vertices per second of the dicer with evaluators of other projects on the processor.
 int benchDice() {
-    constexpr int kIsolation = 3; // of all of them: depth of the patch tables at extraordinary vertices
-    Subject subject;
-    const Surface surface = buildSurface(subject.cage, {.isolation = kIsolation});
+    constexpr int kIsolation = 3; // of all evaluators: depth of the refinement around extraordinary vertices
+    TestSurface test;
+    const Surface surface = buildSurface(test.cage, {.isolation = kIsolation});
+    // Displaced as relief draws it, and smooth as the others evaluate it.
     Device device;
-    const SurfaceModel displaced(device,
-                          {.surface = &surface, .cagePositions = subject.cage.positions, .height = &subject.map});
-    const SurfaceModel smooth(device, {.surface = &surface, .cagePositions = subject.cage.positions});
+    const SurfaceModel displaced(device, {.surface = &surface, .cagePositions = test.cage.positions, .height = &test.map});
+    const SurfaceModel smooth(device, {.surface = &surface, .cagePositions = test.cage.positions});
     EdgeRater rater(device);
-    const EdgeRates rates = rater.rates(displaced, subject.options, {});
+    const EdgeRates rates = rater.rates(displaced, test.options, {});
     std::cout << fmt::format(
         "dice: {} at rate {}, isolation {}, on {}; others: {} threads\n"
-        "Others evaluate limit points and first derivatives of (rate + 1)^2 points a face, into arrays that wait for\n"
-        "them. The dicer evaluates each distinct point once, with first and second derivatives and the height with "
-        "its\n"
-        "central differences, and writes displaced points and normals into a new buffer; then the triangles.\n",
-        subject.path, subject.rate, kIsolation, device.traits().name, std::thread::hardware_concurrency());
-    DiceContest full(device, displaced, rates, NormalKind::full, "full normals, heights");
-    DiceContest first(device, displaced, rates, NormalKind::firstOrder, "first-order normals, heights");
-    DiceContest limit(device, smooth, rates, NormalKind::limit, "limit normals, no heights: what the others do");
-    const std::vector<Contestant> opponents = timeOpponents(subject, kIsolation, [&] {
-        for (DiceContest* contest : {&full, &first, &limit}) contest->run();
+        "The others evaluate limit points and first derivatives at (rate + 1)^2 points per face, into arrays that are\n"
+        "allocated before. The dicer evaluates each distinct point once, with first and second derivatives, the "
+        "height\n"
+        "and its central differences, and writes displaced points and normals into a new buffer, then triangles.\n",
+        test.path, test.rate, kIsolation, device.traits().name, std::thread::hardware_concurrency());
+    TimedDicing full(device, displaced, rates, NormalKind::full, "full normals, heights");
+    TimedDicing first(device, displaced, rates, NormalKind::firstOrder, "first-order normals, heights");
+    TimedDicing limit(device, smooth, rates, NormalKind::limit, "limit normals, no heights, as the others");
+    const std::vector<Timing> otherTimings = timeEvaluators(test, kIsolation, [&] {
+        for (TimedDicing* dicing : {&full, &first, &limit}) dicing->run();
     });
-    std::vector<Contestant> own;
-    for (const DiceContest* contest : {&full, &first, &limit})
-        own.insert(own.end(), {contest->vertices(), contest->mesh()});
-    print(own, opponents);
+    // Vertices and mesh of each, then the others.
+    std::vector<Timing> own;
+    for (const TimedDicing* dicing : {&full, &first, &limit})
+        own.insert(own.end(), {dicing->vertices(), dicing->mesh()});
+    printTimings(own, otherTimings);
     return 0;
 }
 
-/// Tessellated vertices in one draw against time: where DeviceTraits::tessellatedVerticesPerDraw comes from.
+/// Prints the time of a frame against the tessellated vertices per draw: DeviceTraits::tessellatedVerticesPerDraw comes
+/// from here.
 int benchSplit() {
-    Subject subject;
-    subject.options.rate = std::min(subject.rate, 12);
+    TestSurface test;
+    test.options.rate = std::min(test.rate, 12);
     Device device;
     if (!device.traits().hasTessellation) {
         std::cout << "split: " << device.traits().name << " has no tessellation shaders\n";
         return 0;
     }
-    const SurfaceModel model(device,
-                      {.surface = &subject.surface, .cagePositions = subject.cage.positions, .height = &subject.map});
+    const SurfaceModel model(device, {.surface = &test.surface, .cagePositions = test.cage.positions, .height = &test.map});
     for (const std::uint32_t limit : {1'000u, 2'500u, 5'000u, 10'000u, 20'000u, 40'000u, 80'000u}) {
-        RenderOptions options = subject.options;
+        RenderOptions options = test.options;
         options.tessellatedVerticesPerDraw = limit;
         Renderer renderer(device, {});
         std::vector<double> times;
         for (int round = 0; round < 4; ++round) times.push_back(renderer.render(model, options).stats.colorMs);
         times.erase(times.begin());
-        std::cout << fmt::format("split: {:6} vertices a draw: {:8.1f} ms\n", limit, median(times));
+        std::cout << fmt::format("split: {:6} vertices per draw: {:8.1f} ms\n", limit, computeMedian(times));
     }
     return 0;
 }

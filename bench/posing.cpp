@@ -17,12 +17,12 @@ namespace Osd = OpenSubdiv::Osd;
 
 constexpr int kPosingRounds = 15;
 
-/// The same stencils as OpenSubdiv's evaluators take them.
+/// The stencils of a surface in the arrays that OpenSubdiv's evaluators take.
 struct OsdStencils {
     std::vector<int> sizes, offsets, indices;
     std::vector<float> weights, from, to;
 
-    /// Theirs are of the cage's points alone: there are no shared rows.
+    /// `stencils` must have no shared rows: OpenSubdiv's stencils have only points of the cage.
     OsdStencils(const Stencils& stencils, std::span<const vec3> positions)
         : offsets(stencils.offsets.begin(), stencils.offsets.end() - 1),
           indices(stencils.indices.begin(), stencils.indices.end()), weights(stencils.weights),
@@ -32,18 +32,19 @@ struct OsdStencils {
         for (const vec3& p : positions) from.insert(from.end(), {p.x, p.y, p.z});
     }
 
+    /// Evaluates all rows once and returns the milliseconds.
     template <typename Evaluator>
-    double time() {
+    double evaluate() {
         const Osd::BufferDescriptor packed(0, 3, 3);
-        return millisecondsOf([&] {
+        return measureMilliseconds([&] {
             Evaluator::EvalStencils(from.data(), packed, to.data(), packed, sizes.data(), offsets.data(),
                                     indices.data(), weights.data(), 0, int(sizes.size()));
         });
     }
 };
 
-/// So many copies of a cage's polygons in one.
-Cage repeated(const Cage& cage, std::uint32_t count) {
+/// A cage of that many copies of a cage's faces.
+Cage repeatFaces(const Cage& cage, std::uint32_t count) {
     Cage all;
     for (std::uint32_t copy = 0; copy < count; ++copy) {
         const auto first = std::uint32_t(all.positions.size());
@@ -54,31 +55,37 @@ Cage repeated(const Cage& cage, std::uint32_t count) {
     return all;
 }
 
+/// Prints one line for a cage. Throws Failure::input where OpenSubdiv cannot have its stencils.
 void benchCage(Device& device, const std::string& name, const Cage& cage, int isolation) {
     const Surface surface = buildSurface(cage, {.isolation = isolation});
     if (surface.stencils.sharedRowCount > 0)
         fail(Failure::input, "{}: a vertex or face has too many neighbours for OpenSubdiv's stencils", name);
+    // The same rows for both sides.
     SurfaceModel model(device, {.surface = &surface, .cagePositions = cage.positions});
     Poser poser(device, model, {.surface = &surface});
     const Pose pose{.positions = cage.positions, .joints = {}, .morphWeights = {}};
     OsdStencils osd(surface.stencils, cage.positions);
+    RELIEF_CHECK(osd.sizes.size() == surface.stencils.rowCount());
+
+    // Interleaved rounds; the first one warms up.
     std::vector<double> ours, cpu, omp;
     for (int round = 0; round <= kPosingRounds; ++round) {
-        // OpenMP's threads go on spinning for a while: what comes behind it on one thread gives them time to rest.
-        const double all = osd.time<Osd::OmpEvaluator>(), one = osd.time<Osd::CpuEvaluator>();
+        // OpenMP's threads spin for a while after their work: CpuEvaluator, on one thread, runs in that time.
+        const double all = osd.evaluate<Osd::OmpEvaluator>(), one = osd.evaluate<Osd::CpuEvaluator>();
         poser.pose(pose);
         if (round == 0) continue;
         ours.push_back(poser.stats().milliseconds);
         cpu.push_back(one);
         omp.push_back(all);
     }
-    const double rows = double(surface.stencils.rowCount()) * 1e-3, best = std::min(median(cpu), median(omp));
+    const double rows = double(surface.stencils.rowCount()) * 1e-3,
+                 best = std::min(computeMedian(cpu), computeMedian(omp));
     std::cout << fmt::format(
         "posing: {:36} {:7} rows of {:4.1f} weights: device {:6.2f} ms ({:6.1f} M/s)  {:4.2f} x the "
         "faster of CpuEvaluator ({:5.1f} M/s) and OmpEvaluator ({:5.1f} M/s); {} uploaded\n",
         fmt::format("{}, isolation {}", name, isolation), surface.stencils.rowCount(),
-        double(surface.stencils.indices.size()) / double(surface.stencils.rowCount()), median(ours),
-        rows / median(ours), best / median(ours), rows / median(cpu), rows / median(omp),
+        double(surface.stencils.indices.size()) / double(surface.stencils.rowCount()), computeMedian(ours),
+        rows / computeMedian(ours), best / computeMedian(ours), rows / computeMedian(cpu), rows / computeMedian(omp),
         humanBytes(poser.stats().uploadedBytes));
 }
 
@@ -93,7 +100,7 @@ void benchPosing() {
     const Cage cage = readCage(isThere ? path : RELIEF_SOURCE "/meshes/octopus.obj");
     for (const int isolation : {3, 6}) benchCage(device, name, cage, isolation);
     const auto copies = std::uint32_t(20'000 / cage.faceCount() + 1);
-    const Cage large = repeated(cage, copies);
+    const Cage large = repeatFaces(cage, copies);
     benchCage(device, fmt::format("{} x {}, {} faces", copies, name, large.faceCount()), large, 3);
 }
 

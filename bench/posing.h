@@ -1,9 +1,10 @@
-// Points of a posed cage: the device's stencils next to those of OpenSubdiv on the processor.
+// Posing a cage: the device's stencils beside those of OpenSubdiv on the processor.
 #pragma once
 
 namespace relief::bench {
 
-/// Prints what posing takes on several cages, in interleaved rounds.
+/// Poses several cages in interleaved rounds and prints how long that takes on the device, with CpuEvaluator and with
+/// OmpEvaluator.
 void benchPosing();
 
 } // namespace relief::bench

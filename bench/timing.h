@@ -1,22 +1,19 @@
-// How suites take times.
+// Statistics of the times of rounds.
 #pragma once
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 #include <vector>
+
+#include "base/checks.h"
+#include "base/clock.h"
 
 namespace relief::bench {
 
-inline double median(std::vector<double> values) {
+/// The upper median: of an even number of values the larger of the two in the middle.
+inline double computeMedian(std::vector<double> values) {
+    RELIEF_CHECK(!values.empty());
     std::ranges::sort(values);
     return values[values.size() / 2];
-}
-
-inline double millisecondsOf(const std::function<void()>& work) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 } // namespace relief::bench

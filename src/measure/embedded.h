@@ -1,4 +1,4 @@
-// Internal: what is built into the program.
+// Internal: what is built into the library.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 namespace relief {
 
 extern const char* const kOctopusObj; ///< meshes/octopus.obj
-extern const char* const kCommit; ///< of the source that was built, with "-dirty" where it had changed; or "unknown"
+/// The commit of the source that was built, with "-dirty" where the source was changed; "unknown" outside of git.
+extern const char* const kCommit;
 
 } // namespace relief

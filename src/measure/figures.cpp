@@ -1,45 +1,48 @@
-// Which numbers a report draws, and how.
+// Which metrics the report draws, and how.
 #include <algorithm>
 
-#include "measure/goals.h"
 #include "measure/page.h"
-#include "measure/parts.h"
+#include "measure/words.h"
 
 namespace relief {
 namespace {
 
-/// Colors are families, dashes and marks their members.
-LineStyle styleOf(const std::string& contestant) {
-    static const std::map<std::string, LineStyle> styles{
-        {"cage + float map", {0, 0}},
-        {"cage + half map", {0, 1}},
-        {"cage + unorm16 map", {0, 2}},
-        {"cage + unorm8 map", {0, 3}},
-        {"cage + bc4 map", {0, 4}},
-        {"dense mesh, raw", {1, 0}},
-        {"dense mesh, quantised", {1, 1}},
-        {"Draco, dense mesh", {1, 2}},
-        {"simplified mesh, raw", {2, 0}},
-        {"simplified mesh, quantised", {2, 1}},
-        {"Draco, simplified mesh", {2, 2}},
-        {"tessellation", {0, 0}},
-        {"grid", {3, 1}},
-        {"dicing", {4, 2}},
-        {"posed cage", {0, 0}},
-    };
-    const auto found = styles.find(contestant);
-    return found != styles.end() ? found->second : LineStyle{5, 0};
+LineStyle chooseStyle(Method method) {
+    switch (method) {
+    case Method::cageFloatMap:
+    case Method::tessellation:
+    case Method::posedCage: return {0, 0};
+    case Method::cageHalfMap: return {0, 1};
+    case Method::cageUnorm16Map: return {0, 2};
+    case Method::cageUnorm8Map: return {0, 3};
+    case Method::cageBc4Map: return {0, 4};
+    case Method::denseRaw: return {1, 0};
+    case Method::denseQuantised: return {1, 1};
+    case Method::denseDraco: return {1, 2};
+    case Method::simplifiedRaw: return {2, 0};
+    case Method::simplifiedQuantised: return {2, 1};
+    case Method::simplifiedDraco: return {2, 2};
+    case Method::grid: return {3, 1};
+    case Method::dicing: return {4, 2};
+    default: return {5, 0};
+    }
 }
 
 using Number = std::function<double(const Row&)>;
 
-/// One line a contestant, in order of appearance; points without a positive number are left out.
-std::vector<PlotLine> linesOf(std::span<const Row* const> rows, const Number& x, const Number& y,
-                              const Number& upper = {}) {
+Number take(Metric metric) {
+    return [metric](const Row& row) { return row.get(metric); };
+}
+double takeAt(const Row& row) { return row.at; }
+
+/// One line per method, in order of appearance. Points that are not positive are skipped: the axes are logarithmic.
+std::vector<PlotLine> makeLines(std::span<const Row* const> rows, const Number& x, const Number& y,
+                                const Number& upper = {}) {
     std::vector<PlotLine> lines;
     for (const Row* row : rows) {
-        auto line = std::ranges::find(lines, row->contestant, &PlotLine::name);
-        if (line == lines.end()) line = lines.insert(lines.end(), {row->contestant, styleOf(row->contestant), {}, {}});
+        const char* name = toWord(row->method);
+        auto line = std::ranges::find(lines, name, &PlotLine::name);
+        if (line == lines.end()) line = lines.insert(lines.end(), {name, chooseStyle(row->method), {}, {}});
         if (!(x(*row) > 0) || !(y(*row) > 0)) continue;
         line->points.emplace_back(x(*row), y(*row));
         if (upper) line->upper.emplace_back(x(*row), upper(*row));
@@ -47,173 +50,166 @@ std::vector<PlotLine> linesOf(std::span<const Row* const> rows, const Number& x,
     return lines;
 }
 
-Number value(const char* name) {
-    return [name](const Row& row) { return row.get(name); };
-}
-
-std::vector<const Row*> inScene(const std::vector<const Row*>& rows, const std::string& scene) {
-    std::vector<const Row*> some;
-    std::ranges::copy_if(rows, std::back_inserter(some), [&](const Row* row) { return row->scene == scene; });
-    return some;
-}
-
-/// How many times as much a dense mesh takes as each other contestant at the same place of the axis.
-std::vector<PlotLine> quotients(std::span<const Row* const> rows, const std::string& opponent, const char* value) {
-    std::vector<const Row*> ours;
-    std::map<double, double> theirs;
+/// A value of the raw dense mesh divided by that of each other method at the same point of the axis.
+std::vector<PlotLine> makeRatioLines(std::span<const Row* const> rows, Metric metric) {
+    std::vector<const Row*> others;
+    std::map<double, double> dense;
     for (const Row* row : rows) {
-        if (row->contestant == opponent)
-            theirs[row->at] = row->get(value);
+        if (row->method == Method::denseRaw)
+            dense[row->at] = row->get(metric);
         else
-            ours.push_back(row);
+            others.push_back(row);
     }
-    return linesOf(
-        ours, [](const Row& row) { return row.at; },
-        [&](const Row& row) {
-            const auto found = theirs.find(row.at);
-            return found == theirs.end() || !(row.get(value) > 0) ? 0 : found->second / row.get(value);
-        });
+    return makeLines(others, takeAt, [&](const Row& row) {
+        const auto found = dense.find(row.at);
+        return found == dense.end() || !(row.get(metric) > 0) ? 0 : found->second / row.get(metric);
+    });
 }
 
-/// Each opponent's bytes to the fewest of any cage and map, by the triangles of the dense mesh of that error.
-std::string equalErrorFigure(std::span<const Row* const> rows, const char* title, const char* value,
-                             const std::vector<std::string>& opponents) {
-    std::map<double, double> ours, triangles; // by tolerance
+/// The bytes of each of `meshes` divided by the fewest of any cage and map of the same tolerance, drawn over the
+/// triangles of the dense mesh that meets the tolerance.
+std::string drawEqualErrorFigure(std::span<const Row* const> rows, const char* title, Metric metric,
+                                 const std::vector<Method>& meshes) {
+    // By tolerance: the smallest cage and map, and the triangles of the dense mesh.
+    std::map<double, double> smallest, triangles;
     for (const Row* row : rows) {
-        if (row->contestant == "dense mesh, raw") triangles[row->at] = row->get("triangles");
-        if (!row->contestant.starts_with("cage + ")) continue;
-        const auto [found, isFirst] = ours.emplace(row->at, row->get(value));
-        if (!isFirst) found->second = std::min(found->second, row->get(value));
+        if (row->method == Method::denseRaw) triangles[row->at] = row->get(Metric::triangles);
+        if (!isCageAndMap(row->method)) continue;
+        const auto [found, isFirst] = smallest.emplace(row->at, row->get(metric));
+        if (!isFirst) found->second = std::min(found->second, row->get(metric));
     }
-    std::vector<const Row*> theirs;
-    std::ranges::copy_if(rows, std::back_inserter(theirs), [&](const Row* row) {
-        return std::ranges::find(opponents, row->contestant) != opponents.end() && ours.contains(row->at);
+    std::vector<const Row*> compared;
+    std::ranges::copy_if(rows, std::back_inserter(compared), [&](const Row* row) {
+        return std::ranges::find(meshes, row->method) != meshes.end() && smallest.contains(row->at);
     });
-    return figureOf({.title = title,
-                     .xLabel = "triangles of the dense mesh",
-                     .yLabel = "opponent to the smallest cage and map",
-                     .yScale = Scale::ratio,
-                     .lines = linesOf(
-                         theirs, [&](const Row& row) { return triangles[row.at]; },
-                         [&](const Row& row) { return row.get(value) / ours.at(row.at); }),
-                     .rule = 1,
-                     .belowRule = "displacement loses",
-                     .aboveRule = "displacement saves"});
+    return drawFigure({.title = title,
+                       .xLabel = "triangles of the dense mesh",
+                       .yLabel = "mesh / smallest cage and map",
+                       .yScale = Scale::ratio,
+                       .lines = makeLines(
+                           compared, [&](const Row& row) { return triangles[row.at]; },
+                           [&](const Row& row) { return row.get(metric) / smallest.at(row.at); }),
+                       .rule = 1,
+                       .belowRule = "displacement loses",
+                       .aboveRule = "displacement saves"});
+}
+
+std::string drawSceneFigures(const std::vector<const Row*>& rows) {
+    const std::string error = "RMS distance to the reference, fraction of the diagonal";
+    // What each method takes, against its error.
+    std::string html = drawFigure({.title = "Bytes on the device against error",
+                                   .xLabel = error,
+                                   .yLabel = "resident",
+                                   .caption = "Left and down is better. Forms that are only for the disk are missing.",
+                                   .xScale = Scale::percent,
+                                   .lines = makeLines(rows, take(Metric::rmsError), take(Metric::residentBytes))});
+    html += drawFigure({.title = "Bytes on disk against error",
+                        .xLabel = error,
+                        .yLabel = "files",
+                        .caption = "Quantised meshes in meshoptimizer's coding; maps in their smallest lossless file.",
+                        .xScale = Scale::percent,
+                        .lines = makeLines(rows, take(Metric::rmsError), take(Metric::diskBytes))});
+    html += drawFigure({.title = "Similarity of pictures against bytes",
+                        .xLabel = "resident bytes",
+                        .yLabel = "PSNR of two views, object only",
+                        .caption = "Up and left is better: equal distances do not look equal.",
+                        .xScale = Scale::bytes,
+                        .yScale = Scale::decibels,
+                        .isYLog = false,
+                        .lines = makeLines(rows, take(Metric::residentBytes), take(Metric::picturePsnr))});
+    // What meshes take, divided by what cage and map take.
+    html += drawEqualErrorFigure(
+        rows, "Break-even at equal error, on the device", Metric::residentBytes,
+        {Method::denseRaw, Method::denseQuantised, Method::simplifiedRaw, Method::simplifiedQuantised});
+    return html + drawEqualErrorFigure(rows, "Break-even at equal error, on disk", Metric::diskBytes,
+                                       {Method::denseQuantised, Method::denseDraco, Method::simplifiedQuantised,
+                                        Method::simplifiedDraco});
 }
 
 } // namespace
 
-std::string bandwidthFigures(const Results& results) {
-    const std::vector<const Row*> all = rowsOf(results, "bandwidth", "tolerance");
+std::string drawBandwidthFigures(const Results& results) {
     std::string html;
-    for (const std::string& scene : scenesOf(results, "bandwidth")) {
-        const std::vector<const Row*> rows = inScene(all, scene);
-        const std::string error = "RMS distance to the reference, share of the diagonal";
-        html += "<h3>" + escaped(scene) + "</h3><div class=\"figures\">";
-        html += figureOf({.title = "Bytes on the device against error",
-                          .xLabel = error,
-                          .yLabel = "resident",
-                          .caption = "Left and down is better. What is only for the disk is missing here.",
-                          .xScale = Scale::percent,
-                          .lines = linesOf(rows, value("rms"), value("resident"))});
-        html += figureOf({.title = "Bytes on disk against error",
-                          .xLabel = error,
-                          .yLabel = "files",
-                          .caption = "Quantised meshes run through meshoptimizer's encoders; maps in their smallest "
-                                     "lossless file.",
-                          .xScale = Scale::percent,
-                          .lines = linesOf(rows, value("rms"), value("disk"))});
-        html += figureOf({.title = "What it looks like against bytes",
-                          .xLabel = "resident bytes",
-                          .yLabel = "PSNR of two views, object only",
-                          .caption = "Up and left is better: equal distances do not look equal.",
-                          .xScale = Scale::bytes,
-                          .yScale = Scale::decibels,
-                          .isYLog = false,
-                          .lines = linesOf(rows, value("resident"), value("picture psnr"))});
-        html += equalErrorFigure(
-            rows, "Break-even at equal error, on the device", "resident",
-            {"dense mesh, raw", "dense mesh, quantised", "simplified mesh, raw", "simplified mesh, quantised"});
-        html += equalErrorFigure(
-            rows, "Break-even at equal error, on disk", "disk",
-            {"dense mesh, quantised", "Draco, dense mesh", "simplified mesh, quantised", "Draco, simplified mesh"});
-        html += "</div>";
-    }
+    for (const std::string& scene : listScenes(results, Suite::bandwidth))
+        html += "<h3>" + escapeHtml(scene) + "</h3><div class=\"figures\">" +
+                drawSceneFigures(selectScene(selectRows(results, Suite::bandwidth, Axis::tolerance), scene)) + "</div>";
     return html;
 }
 
-std::string scalingFigures(const Results& results) {
-    const std::vector<const Row*> rows = rowsOf(results, "scaling", "triangles");
-    const Number at = [](const Row& row) { return row.at; };
+std::string drawScalingFigures(const Results& results) {
+    const std::vector<const Row*> rows = selectRows(results, Suite::scaling, Axis::triangles);
     std::string html = "<div class=\"figures\">";
-    html += figureOf({.title = "Time of a frame against triangles",
-                      .xLabel = "triangles",
-                      .yLabel = "median, rates to pixels on the host",
-                      .yScale = Scale::milliseconds,
-                      .lines = linesOf(rows, at, value("frame"))});
+    // In a picture of one size.
+    html += drawFigure({.title = "Frame time against triangles",
+                        .xLabel = "triangles",
+                        .yLabel = "median, rates to pixels on the host",
+                        .yScale = Scale::milliseconds,
+                        .lines = makeLines(rows, takeAt, take(Metric::frameTime))});
+    html += drawFigure(
+        {.title = "Bytes read per frame against triangles, between all caches and none",
+         .xLabel = "triangles",
+         .yLabel = "bytes read per frame",
+         .caption = "The lower border reads every resident byte once, the upper one fetches for every shader "
+                    "invocation; a device is between them.",
+         .lines = makeLines(rows, takeAt, take(Metric::bytesReadCached), take(Metric::bytesReadUncached))});
+    // In pictures that grow with the triangles, and of cages that grow.
+    html += drawFigure({.title = "Cost per additional triangle of constant size on screen",
+                        .xLabel = "triangles, one per pixel: the picture grows with them",
+                        .yLabel = "dice pass and color pass",
+                        .yScale = Scale::nanoseconds,
+                        .lines = makeLines(selectRows(results, Suite::scaling, Axis::pixelTriangles), takeAt,
+                                           take(Metric::costPerAdditionalTriangle))});
     html +=
-        figureOf({.title = "Bytes read a frame against triangles, between all caches and none",
-                  .xLabel = "triangles",
-                  .yLabel = "read a frame",
-                  .caption = "The lower border reads every resident byte once, the upper one fetches for every call "
-                             "anew; a device is between them.",
-                  .lines = linesOf(rows, at, value("read a frame, least"), value("read a frame, cacheless"))});
-    html += figureOf(
-        {.title = "Cost of a further triangle, all of one size on screen",
-         .xLabel = "triangles, one a pixel: the picture grows with them",
-         .yLabel = "dicing and color pass, a triangle more",
-         .yScale = Scale::nanoseconds,
-         .lines = linesOf(rowsOf(results, "scaling", "triangles of a pixel"), at, value("a further triangle"))});
-    html += figureOf({.title = "Preparing a cage",
-                      .xLabel = "faces of the cage",
-                      .yLabel = "OpenSubdiv's tables and upload",
-                      .yScale = Scale::milliseconds,
-                      .lines = linesOf(rowsOf(results, "scaling", "faces"), at,
-                                       [](const Row& row) { return row.get("tables") + row.get("upload"); })});
+        drawFigure({.title = "Preparing a cage",
+                    .xLabel = "faces of the cage",
+                    .yLabel = "building and uploading OpenSubdiv's tables",
+                    .yScale = Scale::milliseconds,
+                    .lines = makeLines(selectRows(results, Suite::scaling, Axis::faces), takeAt, [](const Row& row) {
+                        return row.get(Metric::tableTime) + row.get(Metric::uploadTime);
+                    })});
     return html + "</div>";
 }
 
-std::string breakEvenFigures(const Results& results) {
-    const std::vector<const Row*> rows = rowsOf(results, "scaling", "triangles");
-    const auto figure = [&](const char* title, const char* value, const char* caption) {
-        return figureOf({.title = title,
-                         .xLabel = "triangles",
-                         .yLabel = "dense mesh to displaced surface",
-                         .caption = caption,
-                         .yScale = Scale::ratio,
-                         .lines = quotients(rows, kDense, value),
-                         .rule = 1,
-                         .belowRule = "displacement loses",
-                         .aboveRule = "displacement saves"});
+std::string drawBreakEvenFigures(const Results& results) {
+    const std::vector<const Row*> rows = selectRows(results, Suite::scaling, Axis::triangles);
+    const auto figure = [&](const char* title, Metric metric, const char* caption) {
+        return drawFigure({.title = title,
+                           .xLabel = "triangles",
+                           .yLabel = "dense mesh / displaced surface",
+                           .caption = caption,
+                           .yScale = Scale::ratio,
+                           .lines = makeRatioLines(rows, metric),
+                           .rule = 1,
+                           .belowRule = "displacement loses",
+                           .aboveRule = "displacement saves"});
     };
-    std::string html = "<div class=\"figures\">";
-    html += figure("Break-even of time", "frame",
-                   "A static mesh costs nothing to prepare: on a processor that plays a "
-                   "graphics card, evaluating the surface anew has to lose.");
-    html += figure("Break-even of resident bytes", "resident",
-                   "The map here is the scene's own, 32-bit floats in full size: see above for maps as small as the "
-                   "error allows.");
-    html += figure("Break-even of bytes read, with all caches", "read a frame, least", "");
-    html += figure("Break-even of bytes read, without caches", "read a frame, cacheless",
-                   "Sixteen control points for every vertex, each fetched from memory: the worst that can be.");
-    return html + "</div>";
+    return "<div class=\"figures\">" +
+           figure("Break-even of time", Metric::frameTime,
+                  "A static mesh costs nothing to prepare: where the processor does the work of a graphics card, "
+                  "evaluating the surface in each frame has to lose.") +
+           figure("Break-even of resident bytes", Metric::residentBytes,
+                  "The map is the scene's own, 32-bit floats in full size: see above for maps as small as the error "
+                  "allows.") +
+           figure("Break-even of bytes read, with all caches", Metric::bytesReadCached, "") +
+           figure("Break-even of bytes read, without caches", Metric::bytesReadUncached,
+                  "Sixteen control points per vertex, each fetched from memory: the worst case.") +
+           "</div>";
 }
 
-std::string animateFigures(const Results& results) {
-    const std::vector<const Row*> rows = rowsOf(results, "animate", "triangles");
-    const Number at = [](const Row& row) { return row.at; };
-    std::string html = "<div class=\"figures\">";
-    html += figureOf({.title = "Bytes uploaded for a pose",
-                      .xLabel = "triangles",
-                      .yLabel = "uploaded a frame",
-                      .caption = "The cage's points do not know how fine they are drawn.",
-                      .lines = linesOf(rows, at, value("uploaded a frame"))});
-    html += figureOf({.title = "Time of a posed frame",
-                      .xLabel = "triangles",
-                      .yLabel = "median",
-                      .yScale = Scale::milliseconds,
-                      .lines = linesOf(rows, at, value("frame"))});
-    return html + "</div>";
+std::string drawAnimateFigures(const Results& results) {
+    const std::vector<const Row*> rows = selectRows(results, Suite::animate, Axis::triangles);
+    return "<div class=\"figures\">" +
+           drawFigure({.title = "Bytes uploaded per pose",
+                       .xLabel = "triangles",
+                       .yLabel = "bytes uploaded per pose",
+                       .caption = "The points of the cage do not depend on the triangles that are drawn.",
+                       .lines = makeLines(rows, takeAt, take(Metric::uploadedBytes))}) +
+           drawFigure({.title = "Time of a posed frame",
+                       .xLabel = "triangles",
+                       .yLabel = "median",
+                       .yScale = Scale::milliseconds,
+                       .lines = makeLines(rows, takeAt, take(Metric::frameTime))}) +
+           "</div>";
 }
 
 } // namespace relief

@@ -1,128 +1,191 @@
-#include "measure/goals.h"
-
+// {"schema": "relief-goals", "version": 1,
+//  "goals": [{"name", "metric",
+//             "subject": {"suite", "axis", "from", "to", "methods": [...], "divided by": [...], "statistic"},
+//             "comparison": "at least" or "at most", "value", "reason"}]}
+// "axis", "from", "to", "divided by" and "reason" may be missing. "statistic": "at smallest", "at largest",
+// "deviation".
 #include <algorithm>
 #include <cmath>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "measure/page.h"
+#include "measure/words.h"
 
 namespace relief {
 namespace {
 
-/// The least of a value among contestants whose name has this beginning and end, at the tightest tolerance; 0: none.
-double leastAtEqualError(const Results& results, const std::string& scene, const std::string& begin,
-                         const std::string& value) {
-    double tightest = INFINITY, least = 0;
-    for (const Row* row : rowsOf(results, "bandwidth", "tolerance"))
-        if (row->scene == scene) tightest = std::min(tightest, row->at);
-    for (const Row* row : rowsOf(results, "bandwidth", "tolerance"))
-        if (row->scene == scene && row->at == tightest && row->contestant.starts_with(begin) &&
-            row->find(value) != nullptr)
-            least = least == 0 ? row->get(value) : std::min(least, row->get(value));
+using GoalJson = nlohmann::json;
+
+constexpr const char* kGoalSchema = "relief-goals";
+constexpr int kGoalVersion = 1;
+
+/// A misspelt key would be a goal that nobody checks.
+void checkKeys(const GoalJson& object, const std::set<std::string>& known) {
+    if (!object.is_object()) throw std::invalid_argument(fmt::format("{} is no object", object.dump()));
+    for (const auto& [key, value] : object.items())
+        if (!known.contains(key)) throw std::invalid_argument(fmt::format("unknown key \"{}\"", key));
+}
+
+std::vector<Method> readMethods(const GoalJson& subject, const char* key) {
+    std::vector<Method> methods;
+    for (const GoalJson& word : subject.value(key, GoalJson::array()))
+        parseWord(word.get<std::string>(), methods.emplace_back());
+    return methods;
+}
+
+Statistic readStatistic(const std::string& word) {
+    if (word == "at smallest") return Statistic::atSmallest;
+    if (word == "at largest") return Statistic::atLargest;
+    if (word == "deviation") return Statistic::deviation;
+    throw std::invalid_argument(fmt::format("\"{}\" is no statistic: at smallest, at largest, deviation", word));
+}
+
+GoalSubject readSubject(const GoalJson& from) {
+    checkKeys(from, {"suite", "axis", "from", "to", "methods", "divided by", "statistic"});
+    GoalSubject subject;
+    parseWord(from.at("suite").get<std::string>(), subject.suite);
+    parseWord(from.value("axis", std::string()), subject.axis);
+    subject.from = from.value("from", subject.from);
+    subject.to = from.value("to", subject.to);
+    subject.methods = readMethods(from, "methods");
+    subject.dividedBy = readMethods(from, "divided by");
+    subject.statistic = readStatistic(from.at("statistic"));
+    if (subject.methods.empty()) throw std::invalid_argument("\"methods\" names no method");
+    if (subject.statistic == Statistic::deviation && !subject.dividedBy.empty())
+        throw std::invalid_argument("a deviation is not divided by another method's");
+    return subject;
+}
+
+Goal readGoal(const GoalJson& from) {
+    checkKeys(from, {"name", "metric", "subject", "comparison", "value", "reason"});
+    Goal goal;
+    goal.name = from.at("name");
+    parseWord(from.at("metric").get<std::string>(), goal.metric);
+    goal.subject = readSubject(from.at("subject"));
+    const std::string comparison = from.at("comparison");
+    if (comparison != "at least" && comparison != "at most")
+        throw std::invalid_argument(
+            fmt::format("comparison \"{}\" is neither \"at least\" nor \"at most\"", comparison));
+    goal.isAtLeast = comparison == "at least";
+    goal.value = from.at("value");
+    goal.reason = from.value("reason", std::string());
+    return goal;
+}
+
+// --- evaluation
+
+bool contains(const std::vector<Method>& methods, Method method) {
+    return std::ranges::find(methods, method) != methods.end();
+}
+
+/// The smallest value of a metric among methods, at the smallest or largest point where any of the rows has the metric.
+std::optional<double> findValue(std::span<const Row* const> rows, const std::vector<Method>& methods,
+                                const Goal& goal) {
+    const bool isSmallest = goal.subject.statistic == Statistic::atSmallest;
+    // The smallest point is that of all methods: a method that does not reach the tightest tolerance has no value.
+    std::optional<double> at;
+    for (const Row* row : rows)
+        if (row->find(goal.metric) != nullptr && (isSmallest || contains(methods, row->method)))
+            at = !at ? row->at : isSmallest ? std::min(*at, row->at) : std::max(*at, row->at);
+    std::optional<double> least;
+    for (const Row* row : rows)
+        if (row->at == at && contains(methods, row->method) && row->find(goal.metric) != nullptr)
+            least = least ? std::min(*least, row->get(goal.metric)) : row->get(goal.metric);
     return least;
 }
 
-void addBandwidth(std::vector<Goal>& goals, const Results& results) {
-    for (const std::string& scene : scenesOf(results, "bandwidth")) {
-        const auto add = [&](const char* what, const char* opponent, const char* value, double wanted) {
-            const double theirs = leastAtEqualError(results, scene, opponent, value);
-            const double ours = leastAtEqualError(results, scene, "cage + ", value);
-            if (theirs > 0 && ours > 0) goals.push_back({what, scene, wanted, theirs / ours, true, " ×"});
-        };
-        add("resident bytes, raw dense mesh to cage and map, same RMS error", "dense mesh, raw", "resident", 20);
-        add("resident bytes, quantised dense mesh to cage and map, same RMS error", "dense mesh, quantised", "resident",
-            6);
-        add("bytes on disk, Draco of the dense mesh to cage and map, same RMS error", "Draco, dense mesh", "disk", 1);
-    }
-}
-
-/// The row of a contestant where it has the most triangles up to `most`.
-const Row* largestUpTo(const Results& results, const std::string& suite, const std::string& contestant, double most) {
-    const Row* found = nullptr;
-    for (const Row* row : rowsOf(results, suite, "triangles"))
-        if (row->contestant == contestant && row->at <= most && (found == nullptr || row->at > found->at)) found = row;
-    return found;
-}
-
-void addAnimate(std::vector<Goal>& goals, const Results& results) {
-    const Row* cage = largestUpTo(results, "animate", "posed cage", 1.3e6);
-    const Row* dense = largestUpTo(results, "animate", "dense mesh, raw", 1.3e6);
-    if (cage == nullptr || dense == nullptr) return;
-    goals.push_back({"bytes uploaded for a pose, raw dense mesh to cage, a million triangles", cage->scene, 200,
-                     dense->get("uploaded a frame") / cage->get("uploaded a frame"), true, " ×"});
-}
-
-/// By how much values are off the middle of their range, as a share.
-double unevenness(const std::vector<double>& values) {
+std::optional<double> findDeviation(std::span<const Row* const> rows, const Goal& goal) {
+    std::vector<double> values;
+    for (const Row* row : rows)
+        if (contains(goal.subject.methods, row->method) && row->find(goal.metric) != nullptr)
+            values.push_back(row->get(goal.metric));
+    if (values.size() < 2) return std::nullopt;
     const auto [low, high] = std::ranges::minmax(values);
     return (high - low) / (high + low);
 }
 
-void addScaling(std::vector<Goal>& goals, const Results& results) {
-    std::map<std::string, std::vector<double>> costs;
-    std::string scene;
-    for (const Row* row : rowsOf(results, "scaling", "triangles of a pixel"))
-        if (row->at > 0.95e5) costs[row->contestant].push_back(row->get("a further triangle")), scene = row->scene;
-    for (const auto& [contestant, values] : costs)
-        if (values.size() > 1)
-            goals.push_back(
-                {"cost of a further triangle of a pixel from 100 k to 10 M, off its middle by, " + contestant, scene,
-                 15, 100 * unevenness(values), false, " %",
-                 contestant == "dicing" ? "the machine's own unevenness from one run to the next is as large"
-                                        : "faces share no vertices: (n + 1)² for 2 n² triangles, which is more a "
-                                          "triangle where n is small"});
-    std::vector<double> perFace;
-    for (const Row* row : rowsOf(results, "scaling", "faces")) perFace.push_back(row->get("a face"));
-    if (perFace.size() > 1)
-        goals.push_back({"preparation a cage face up to 100 k faces, off its middle by", scene, 15,
-                         100 * unevenness(perFace), false, " %",
-                         "the machine's own unevenness from one run to the next is as large"});
-}
-
-void addMemory(std::vector<Goal>& goals, const Results& results) {
-    for (const Row* row : rowsOf(results, "memory", ""))
-        goals.push_back({"resident memory of a frame to the buffers it lists, less what a process without triangles "
-                         "takes, " +
-                             row->contestant,
-                         row->scene, 1.2, row->get("grown and first buffers to all buffers"), false, " ×",
-                         "the CPU driver keeps triangles that it has not rasterized; waiting for them in between, as "
-                         "is done with finished meshes, takes more time here than it saves memory"});
-}
-
-void addFrame(std::vector<Goal>& goals, const Results& results) {
-    const std::vector<const Row*> rows = rowsOf(results, "frame", "");
-    const auto dense = std::ranges::find(rows, "dense mesh, raw", &Row::contestant);
-    if (dense == rows.end()) return;
-    for (const Row* row : rows) {
-        const double wanted = row->contestant == "tessellation" ? 2 : row->contestant == "dicing" ? 1.6 : 0;
-        if (wanted > 0)
-            goals.push_back({"time of the triangle passes to those of the static dense mesh, " + row->contestant,
-                             row->scene, wanted, row->get("triangle passes") / (*dense)->get("triangle passes"), false,
-                             " ×"});
-    }
+std::optional<double> evaluate(const Goal& goal, std::vector<const Row*> rows) {
+    std::erase_if(rows, [&](const Row* row) { return row->at < goal.subject.from || row->at > goal.subject.to; });
+    if (goal.subject.statistic == Statistic::deviation) return findDeviation(rows, goal);
+    const std::optional<double> value = findValue(rows, goal.subject.methods, goal);
+    if (goal.subject.dividedBy.empty() || !value) return value;
+    const std::optional<double> divisor = findValue(rows, goal.subject.dividedBy, goal);
+    if (!divisor || !(*divisor > 0)) return std::nullopt;
+    return *value / *divisor;
 }
 
 } // namespace
 
-std::vector<const Row*> rowsOf(const Results& results, const std::string& suite, const std::string& axis) {
+std::vector<Goal> parseGoals(const std::string& text, const std::string& name) {
+    std::string place; // of an error: the goal being read
+    try {
+        const GoalJson all = GoalJson::parse(text);
+        if (!all.is_object() || all.value("schema", GoalJson()) != kGoalSchema)
+            fail(Failure::input, "{}: these are no goals (\"schema\" is not \"{}\")", name, kGoalSchema);
+        if (all.at("version") != kGoalVersion)
+            fail(Failure::input, "{}: version {} of the goals is not read; this relief reads {}", name,
+                 all.at("version").dump(), kGoalVersion);
+        checkKeys(all, {"schema", "version", "goals"});
+        // Errors from here on name the goal by its number.
+        std::vector<Goal> goals;
+        for (const GoalJson& goal : all.at("goals")) {
+            place = fmt::format("goal {}: ", goals.size());
+            goals.push_back(readGoal(goal));
+        }
+        return goals;
+    } catch (const GoalJson::exception& error) {
+        fail(Failure::input, "{}: {}{}", name, place, error.what());
+    } catch (const std::invalid_argument& error) {
+        fail(Failure::input, "{}: {}{}", name, place, error.what());
+    }
+}
+
+std::vector<GoalResult> evaluateGoals(std::span<const Goal> goals, const Results& results) {
+    std::vector<GoalResult> all;
+    for (const Goal& goal : goals)
+        for (const std::string& scene : listScenes(results, goal.subject.suite)) {
+            const auto rows = selectScene(selectRows(results, goal.subject.suite, goal.subject.axis), scene);
+            if (const std::optional<double> found = evaluate(goal, rows)) all.push_back({goal, scene, *found});
+        }
+    return all;
+}
+
+std::string formatGoal(const Goal& goal, double figure) {
+    if (goal.subject.statistic == Statistic::deviation) return fmt::format("{:.3g} %", 100 * figure);
+    const Unit unit = describe(goal.metric).unit;
+    if (!goal.subject.dividedBy.empty() || unit == Unit::ratio) return formatNumber(figure, Scale::ratio);
+    if (unit == Unit::bytes) return formatNumber(figure, Scale::bytes);
+    const std::string word = toWord(unit);
+    return fmt::format("{:.3g}{}{}", figure, word.empty() ? "" : " ", word);
+}
+
+std::vector<const Row*> selectRows(const Results& results, Suite suite, Axis axis) {
     std::vector<const Row*> rows;
     for (const Row& row : results.rows)
         if (row.suite == suite && row.axis == axis) rows.push_back(&row);
     return rows;
 }
 
-std::vector<std::string> scenesOf(const Results& results, const std::string& suite) {
+std::vector<const Row*> selectScene(std::vector<const Row*> rows, const std::string& scene) {
+    std::erase_if(rows, [&](const Row* row) { return row->scene != scene; });
+    return rows;
+}
+
+std::vector<std::string> listScenes(const Results& results, Suite suite) {
     std::vector<std::string> scenes;
     for (const Row& row : results.rows)
         if (row.suite == suite && std::ranges::find(scenes, row.scene) == scenes.end()) scenes.push_back(row.scene);
     return scenes;
 }
 
-std::vector<Goal> goalsOf(const Results& results) {
-    std::vector<Goal> goals;
-    addBandwidth(goals, results);
-    addAnimate(goals, results);
-    addScaling(goals, results);
-    addMemory(goals, results);
-    addFrame(goals, results);
-    return goals;
+std::vector<Metric> listMetrics(std::span<const Row* const> rows) {
+    std::vector<Metric> metrics;
+    for (const Row* row : rows)
+        for (const Value& value : row->values)
+            if (std::ranges::find(metrics, value.metric) == metrics.end()) metrics.push_back(value.metric);
+    return metrics;
 }
 
 } // namespace relief

@@ -1,12 +1,13 @@
-// {"schema": "relief-bench", "version": 1,
-//  "program": {"version", "commit"}, "machine": {...}, "device": {...}, "settings": {...}, "notes": [...],
-//  "rows": [{"suite", "scene", "contestant", "axis", "at",
-//            "values": {NAME: {"unit", "origin": "measured" or "computed", "median", "p5", "p95", "samples": [...]}}}]}
-#include <cmath>
-
+// {"schema": "relief-bench", "version": 2,
+//  "program": {"name", "commit", "time"}, "machine": {...}, "device": {...}, "settings": {...}, "notes": [...],
+//  "rows": [{"suite", "scene", "method", "axis", "at",
+//            "values": {METRIC: {"unit", "origin": "measured" or "computed", "median", "p5", "p95", "samples":
+//            [...]}}}]}
+// Names of suites, methods, axes, metrics and units are those of words.cpp. The percentiles are for other readers: they
+// follow from the samples.
 #include <nlohmann/json.hpp>
 
-#include "measure/measure.h"
+#include "measure/words.h"
 
 namespace relief {
 namespace {
@@ -14,37 +15,61 @@ namespace {
 using json = nlohmann::ordered_json; // values keep their order
 
 constexpr const char* kSchema = "relief-bench";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
-const char* wordOf(Origin origin) { return origin == Origin::measured ? "measured" : "computed"; }
-
-json ofValue(const Value& value) {
-    const Spread spread = spreadOf(value.samples);
-    return {{"unit", value.unit}, {"origin", wordOf(value.origin)}, {"median", spread.median}, {"p5", spread.p5},
-            {"p95", spread.p95},  {"samples", value.samples}};
+json writeValue(const Value& value) {
+    const Spread spread = computeSpread(value.samples);
+    return {{"unit", toWord(describe(value.metric).unit)},
+            {"origin", toWord(value.origin)},
+            {"median", spread.median},
+            {"p5", spread.p5},
+            {"p95", spread.p95},
+            {"samples", value.samples}};
 }
 
-json ofRow(const Row& row) {
+json writeRow(const Row& row) {
     json values = json::object();
-    for (const Value& value : row.values) values[value.name] = ofValue(value);
-    return {{"suite", row.suite}, {"scene", row.scene}, {"contestant", row.contestant},
-            {"axis", row.axis},   {"at", row.at},       {"values", values}};
+    for (const Value& value : row.values) values[describe(value.metric).name] = writeValue(value);
+    return {{"suite", toWord(row.suite)}, {"scene", row.scene}, {"method", toWord(row.method)},
+            {"axis", toWord(row.axis)},   {"at", row.at},       {"values", values}};
 }
 
-Value valueOf(const std::string& name, const json& from) {
-    const std::string origin = from.at("origin");
-    if (origin != "measured" && origin != "computed") throw std::invalid_argument("origin is \"" + origin + "\"");
-    return {name, from.at("unit"), origin == "measured" ? Origin::measured : Origin::computed, from.at("samples")};
+template <typename Enum>
+Enum readWord(const json& from, const char* key) {
+    Enum value{};
+    parseWord(from.at(key).get<std::string>(), value);
+    return value;
 }
 
-Row rowOf(const json& from) {
-    Row row{from.at("suite"), from.at("scene"), from.at("contestant"), from.at("axis"), from.at("at"), {}};
-    for (const auto& [name, value] : from.at("values").items()) row.values.push_back(valueOf(name, value));
+Value readValue(const std::string& name, const json& from) {
+    Value value{};
+    parseWord(name, value.metric);
+    value.origin = readWord<Origin>(from, "origin");
+    value.samples = from.at("samples").get<std::vector<double>>();
+    const std::string unit = from.at("unit"), known = toWord(describe(value.metric).unit);
+    if (unit != known) throw std::invalid_argument(fmt::format("{} is in \"{}\", not in \"{}\"", name, unit, known));
+    if (value.samples.empty()) throw std::invalid_argument(fmt::format("{} has no samples", name));
+    return value;
+}
+
+Row readRow(const json& from) {
+    Row row{readWord<Suite>(from, "suite"), from.at("scene"), readWord<Method>(from, "method"),
+            readWord<Axis>(from, "axis"),   from.at("at"),    {}};
+    for (const auto& [name, value] : from.at("values").items()) row.values.push_back(readValue(name, value));
     return row;
 }
 
+void checkVersion(const json& all, const std::string& name) {
+    if (!all.is_object() || all.value("schema", json()) != kSchema)
+        fail(Failure::input, "{}: these are no results of relief bench (\"schema\" is not \"{}\")", name, kSchema);
+    const json& version = all.at("version");
+    if (version != kVersion)
+        fail(Failure::input, "{}: version {} of the results is not read; this relief reads {}: measure again{}", name,
+             version.dump(), kVersion, version == 1 ? ", or use the relief that wrote it" : "");
+}
+
 /// A cell of CSV (RFC 4180): quoted where it holds what would end it.
-std::string cell(const std::string& text) {
+std::string quoteCell(const std::string& text) {
     if (text.find_first_of(",\"\n") == std::string::npos) return text;
     std::string quoted = "\"";
     for (const char letter : text) quoted += letter == '"' ? std::string("\"\"") : std::string(1, letter);
@@ -53,9 +78,9 @@ std::string cell(const std::string& text) {
 
 } // namespace
 
-std::string jsonOf(const Results& results) {
+std::string toJson(const Results& results) {
     json rows = json::array();
-    for (const Row& row : results.rows) rows.push_back(ofRow(row));
+    for (const Row& row : results.rows) rows.push_back(writeRow(row));
     const json all{{"schema", kSchema},          {"version", kVersion},
                    {"program", results.program}, {"machine", results.machine},
                    {"device", results.device},   {"settings", results.settings},
@@ -67,14 +92,10 @@ std::string jsonOf(const Results& results) {
 Results parseResults(const std::string& text, const std::string& name) {
     try {
         const json all = json::parse(text);
-        if (!all.is_object() || all.value("schema", json()) != kSchema)
-            fail(Failure::input, "{}: these are no results of relief bench (\"schema\" is not \"{}\")", name, kSchema);
-        if (all.at("version") != kVersion)
-            fail(Failure::input, "{}: version {} of the results is not known here; {} is", name,
-                 all.at("version").dump(), kVersion);
+        checkVersion(all, name);
         Results results{
             all.at("program"), all.at("machine"), all.at("device"), all.at("settings"), {}, all.at("notes"), {}};
-        for (const json& row : all.at("rows")) results.rows.push_back(rowOf(row));
+        for (const json& row : all.at("rows")) results.rows.push_back(readRow(row));
         return results;
     } catch (const json::exception& error) {
         fail(Failure::input, "{}: not as relief bench writes it: {}", name, error.what());
@@ -83,15 +104,16 @@ Results parseResults(const std::string& text, const std::string& name) {
     }
 }
 
-std::string csvOf(const Results& results) {
-    std::string csv = "suite,scene,contestant,axis,at,value,unit,origin,samples,median,p5,p95\n";
+std::string toCsv(const Results& results) {
+    std::string csv = "suite,scene,method,axis,at,metric,unit,origin,samples,median,p5,p95\n";
     for (const Row& row : results.rows)
         for (const Value& value : row.values) {
-            const Spread spread = spreadOf(value.samples);
-            csv += fmt::format("{},{},{},{},{:.10g},{},{},{},{},{:.10g},{:.10g},{:.10g}\n", cell(row.suite),
-                               cell(row.scene), cell(row.contestant), cell(row.axis), row.at, cell(value.name),
-                               cell(value.unit), wordOf(value.origin), value.samples.size(), spread.median, spread.p5,
-                               spread.p95);
+            const MetricInfo& metric = describe(value.metric);
+            const Spread spread = computeSpread(value.samples);
+            csv += fmt::format("{},{},{},{},{:.10g},{},{},{},{},{:.10g},{:.10g},{:.10g}\n", toWord(row.suite),
+                               quoteCell(row.scene), quoteCell(toWord(row.method)), toWord(row.axis), row.at,
+                               quoteCell(metric.name), toWord(metric.unit), toWord(value.origin), value.samples.size(),
+                               spread.median, spread.p5, spread.p95);
         }
     return csv;
 }

@@ -1,182 +1,110 @@
-// What displacement costs and saves, against dense meshes of the same error: suites, opponents, results, a report.
+// What displacement costs and saves, compared with dense meshes of the same error: the suites that `relief bench` runs.
+// Their results, and how those are written and compared, are in results.h. (The program relief_bench in bench/ is
+// another thing: comparisons for developers, among them with evaluators of other projects.)
 #pragma once
 
-#include <map>
+#include <functional>
 #include <optional>
 #include <span>
 
-#include "distance/distance.h"
 #include "frame/frame.h"
+#include "measure/results.h"
 
 namespace relief {
 
-// --- results ------------------------------------------------------------------------------------------------------
+// --- the model of bytes --------------------------------------------------------------------------------------------
 
-/// Of samples that run from the fastest to the slowest: linear between neighbours.
-struct Spread {
-    double median = 0, p5 = 0, p95 = 0;
-};
-Spread spreadOf(std::vector<double> samples);
-
-/// Whether something was drawn or written and looked at, or follows by arithmetic from what was.
-enum class Origin { measured, computed };
-
-/// One quantity with every sample of it; units: "ms", "bytes", "triangles", ...
-struct Value {
-    std::string name, unit;
-    Origin origin = Origin::measured;
-    std::vector<double> samples;
-
-    [[nodiscard]] double median() const { return spreadOf(samples).median; }
-};
-
-/// One contestant at one place of the axis that its suite walks along.
-struct Row {
-    std::string suite, scene, contestant;
-    std::string axis; ///< "tolerance", "triangles", "faces", or "" where there is one place
-    double at = 0;
-    std::vector<Value> values;
-
-    /// Null where there is no such value.
-    [[nodiscard]] const Value* find(const std::string& name) const;
-    /// The median, or `otherwise`.
-    [[nodiscard]] double get(const std::string& name, double otherwise = 0) const;
-    void add(const std::string& name, const std::string& unit, Origin origin, double sample);
-    void add(const std::string& name, const std::string& unit, std::vector<double> samples); ///< measured
-};
-
-/// Two pictures of the same view and what differs, as PNG files in memory.
-struct PicturePair {
-    std::string scene, title, left, right; ///< words
-    std::string leftPng, rightPng, differencePng;
-};
-
-/// Everything that a run tells.
-struct Results {
-    std::map<std::string, std::string> program, machine, device, settings;
-    std::vector<Row> rows;
-    std::vector<std::string> notes;    ///< what was left out, and why
-    std::vector<PicturePair> pictures; ///< in the report alone
-};
-
-/// "relief-bench", version 1: see jsonOf() for the shape.
-std::string jsonOf(const Results& results);
-/// Throws Failure::input, naming `name`, for text of another shape or version. There are no pictures in it.
-Results parseResults(const std::string& text, const std::string& name);
-/// One line a value: suite, scene, contestant, axis, at, value, unit, origin, samples, median, p5, p95.
-std::string csvOf(const Results& results);
-/// For people: a table a suite.
-std::string tableOf(const Results& results);
-/// One HTML page that needs nothing else: plots, tables, pictures, and the model of bytes in words.
-std::string reportOf(const Results& results);
-
-/// A time or a number of bytes in two runs. Ratios are second to first; `low` and `high` span the 5th and 95th
-/// percentiles of both.
-struct Change {
-    std::string suite, scene, contestant, axis, name, unit;
-    double at = 0, before = 0, after = 0;
-    double ratio = 1, low = 1, high = 1;
-    bool isRegression = false; ///< the ratio is past the tolerance, and the spreads do not explain it: low > 1
-};
-struct Comparison {
-    std::vector<Change> changes;
-    std::vector<std::string> onlyInOne; ///< rows without a partner
-    std::vector<std::string> warnings;  ///< other machines, other settings
-
-    [[nodiscard]] bool hasRegression() const;
-};
-Comparison compareResults(const Results& before, const Results& after, double tolerance);
-
-// --- the model of bytes -------------------------------------------------------------------------------------------
-
-/// The same map in other texels, 32-bit floats: those whose lookups come nearest, by least squares.
-HeightMap resampled(const HeightMap& map, int width, int height);
-
-/// How a dense mesh is kept on the device.
-struct DenseLayout {
-    std::uint32_t positionBytes, normalBytes, texCoordBytes, indexBytes;
-
-    [[nodiscard]] std::uint32_t vertexBytes() const { return positionBytes + normalBytes + texCoordBytes; }
-};
-inline constexpr DenseLayout kRawLayout{12, 12, 8, 4};
-/// 16-bit positions, 8-bit octahedral normals in what pads them to four numbers, 16-bit texture coordinates.
+/// 16-bit positions, 8-bit octahedral normals in the two bytes that pad them to eight, 16-bit texture coordinates.
 inline constexpr DenseLayout kQuantisedLayout{6, 2, 4, 4};
 
 struct MeshCounts {
     std::uint64_t vertices = 0, triangles = 0;
 };
-std::uint64_t residentBytes(const DenseLayout& layout, const MeshCounts& counts);
 
-/// What a frame reads (and writes, where triangles go through memory) to make its triangles: between every resident
-/// byte once, with caches that hold everything, and every fetch of every call, without caches.
+/// Bytes that one frame reads to make its triangles, and writes where triangles go through memory. `cached`: every
+/// resident byte once, as with caches that hold everything; `uncached`: every fetch of every shader invocation.
 struct Traffic {
-    std::uint64_t least = 0, cacheless = 0;
+    std::uint64_t cached = 0, uncached = 0;
 };
-/// `vertexCalls`: of the vertex shader.
-Traffic denseTraffic(const DenseLayout& layout, const MeshCounts& counts, std::uint64_t vertexCalls);
+Traffic computeDenseTraffic(const DenseLayout& layout, const MeshCounts& counts, std::uint64_t vertexInvocations);
 
-/// What one evaluation of a bicubic patch with its height reads.
-struct Evaluation {
+/// What decides how many bytes one evaluation of a bicubic patch with its height reads.
+struct PatchEvaluation {
     bool hasTexCoords = true;
-    bool hasWideIndices = false; ///< as Model
+    bool hasWideIndices = false; ///< as SurfaceModel::hasWideIndices
     MapFormat format = MapFormat::real;
 };
-/// Records, tree, 16 points with their numbers, 12 texels of the map: a word each, of BC4 two.
-std::uint64_t evaluationBytes(const Evaluation& evaluation);
+std::uint64_t computeEvaluationBytes(const PatchEvaluation& evaluation);
 
 struct SurfaceTrafficDesc {
     std::uint64_t residentBytes = 0;
-    std::uint64_t calls = 0; ///< evaluations of the surface
-    Evaluation evaluation;
-    MeshCounts diced; ///< dicing: the mesh that is written and read again, or none
+    std::uint64_t evaluationCount = 0;
+    PatchEvaluation evaluation;
+    MeshCounts diced; ///< the mesh that dicing writes and the draw reads; 0 for other paths
 };
-Traffic surfaceTraffic(const SurfaceTrafficDesc& desc);
+Traffic computeSurfaceTraffic(const SurfaceTrafficDesc& desc);
 
-/// Sent to the device for one pose: the cage's points, three floats each, or what moves of a dense mesh.
-std::uint64_t posedCageBytes(std::uint64_t cagePoints);
-std::uint64_t posedDenseBytes(const DenseLayout& layout, std::uint64_t vertices);
+/// Bytes sent to the device for one pose: the positions of the cage, or positions and normals of a dense mesh.
+std::uint64_t computePosedCageBytes(std::uint64_t cagePointCount);
+std::uint64_t computePosedDenseBytes(const DenseLayout& layout, std::uint64_t vertexCount);
 
-// --- opponents ----------------------------------------------------------------------------------------------------
+// --- smaller maps and meshes ---------------------------------------------------------------------------------------
 
-/// A mesh in another form: its bytes, and what is left of its geometry.
+/// The map of other size, 32-bit floats, whose lookups are nearest to those of `map` by least squares.
+HeightMap resampleMap(const HeightMap& map, int width, int height);
+
+/// A mesh in another form: its geometry after decoding, and its bytes.
 struct EncodedMesh {
     DenseMesh decoded;
-    std::uint64_t residentBytes = 0, diskBytes = 0; ///< 0 where the form is not for that
+    std::uint64_t residentBytes = 0, diskBytes = 0; ///< 0 where the form is not used on the device, or on disk
 };
+/// In kQuantisedLayout, triangles and vertices in meshoptimizer's order for caches; on disk in meshoptimizer's coding.
+EncodedMesh quantiseMesh(const DenseMesh& mesh);
+/// At most that many triangles where meshoptimizer's simplifier can; it may stop earlier at seams.
+DenseMesh simplifyMesh(const DenseMesh& mesh, std::size_t triangleCount);
+/// By Draco's edgebreaker: `positionBits` per coordinate, 8 per component of normals, 12 per texture coordinate.
+/// Throws Failure::internal where Draco fails.
+EncodedMesh encodeWithDraco(const DenseMesh& mesh, int positionBits);
 
-/// In kQuantisedLayout, triangles and vertices in the order that caches like; on disk run through meshoptimizer's
-/// encoders.
-EncodedMesh quantised(const DenseMesh& mesh);
-/// About so many triangles, by meshoptimizer's simplifier.
-DenseMesh simplified(const DenseMesh& mesh, std::size_t triangles);
-/// As Draco's edgebreaker keeps it, with so many bits a coordinate; normals 8 bits, texture coordinates 12.
-EncodedMesh dracoEncoded(const DenseMesh& mesh, int positionBits);
+// --- suites --------------------------------------------------------------------------------------------------------
 
-// --- suites -------------------------------------------------------------------------------------------------------
-
-/// A cage with its map.
-struct Subject {
+/// A cage with its height map.
+struct TestScene {
     std::string name;
     Cage cage;
     SurfaceOptions surface;
     HeightMap height;           ///< as the device reads it
     MapEncoding heightEncoding; ///< how the device stores it
 };
+/// Smooth noise and crisp plates, on bigguy.obj of the folder RELIEF_DATA where it is there, else on the octopus that
+/// is built in. The first scene is the one of the suites that take one.
+std::vector<TestScene> makeBuiltInScenes(bool isQuick);
 
-/// Smooth noise and a crisp pattern on bigguy (in the folder RELIEF_DATA, where it is there) or the project's octopus.
-std::vector<Subject> builtInSubjects(bool isQuick);
+/// A frame to be rendered by a process of its own.
+struct ProcessRequest {
+    std::optional<Path> path;         ///< none: the program's choice
+    std::optional<int> rate;          ///< segments per edge, or
+    std::optional<double> edgePixels; ///< pixels per segment
+    bool usesShaderCache = true;
+};
+/// What such a process took, and what it reported of its frame.
+struct ProcessRun {
+    double milliseconds = 0;     ///< from its start to its end
+    std::uint64_t peakBytes = 0; ///< resident memory of the process at most
+    std::uint64_t triangleCount = 0;
+    std::uint64_t deviceBytes = 0, peakDeviceBytes = 0; ///< of surface and map; of all buffers at most
+};
+using RenderProcess = std::function<ProcessRun(const ProcessRequest&)>;
 
 struct MeasureOptions {
     bool isQuick = false;
-    std::string device;  ///< as DeviceDesc::name
-    std::string program; ///< relief itself, which `startup` runs
+    std::string device; ///< as DeviceDesc::name
+    /// Makes what renders a scene in processes: `memory` and `startup` need it, and are refused without it.
+    std::function<RenderProcess(const TestScene&)> makeRenderProcess;
     ShowProgress progress = ShowProgress::automatic;
 };
-
-/// "bandwidth", "frame", "animate", "memory", "scaling", "startup".
-const std::vector<std::string>& suiteNames();
-/// Runs the named suites, in the order above.
-Results runSuites(std::span<const std::string> suites, std::span<const Subject> subjects,
-                  const MeasureOptions& options);
+/// Runs the named suites, those that start processes first. Only `bandwidth` takes all scenes, and one where quick.
+/// Throws Failure::input for no scene, and what devices and processes throw.
+Results runSuites(std::span<const Suite> suites, std::span<const TestScene> scenes, const MeasureOptions& options);
 
 } // namespace relief

@@ -11,24 +11,24 @@
 namespace relief {
 namespace {
 
-const float* floatsOf(const std::vector<vec3>& values) { return values.empty() ? nullptr : &values.front().x; }
+const float* toFloats(const std::vector<vec3>& values) { return values.empty() ? nullptr : &values.front().x; }
 
-/// The mesh with its vertices in another order, those that no triangle names left out.
-DenseMesh reordered(const DenseMesh& mesh, std::vector<std::uint32_t> indices) {
-    std::vector<std::uint32_t> places(mesh.positions.size());
+/// Orders the vertices as `indices` first name them, and drops those that no triangle has.
+DenseMesh reorderVertices(const DenseMesh& mesh, std::vector<std::uint32_t> indices) {
+    std::vector<std::uint32_t> newIndices(mesh.positions.size());
     const std::size_t count =
-        meshopt_optimizeVertexFetchRemap(places.data(), indices.data(), indices.size(), mesh.positions.size());
+        meshopt_optimizeVertexFetchRemap(newIndices.data(), indices.data(), indices.size(), mesh.positions.size());
     DenseMesh result;
     result.positions.resize(count);
     result.normals.resize(mesh.normals.empty() ? 0 : count);
     result.texCoords.resize(mesh.texCoords.empty() ? 0 : count);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (places[i] == ~0u) continue;
-        result.positions[places[i]] = mesh.positions[i];
-        if (!mesh.normals.empty()) result.normals[places[i]] = mesh.normals[i];
-        if (!mesh.texCoords.empty()) result.texCoords[places[i]] = mesh.texCoords[i];
+    for (std::size_t i = 0; i < newIndices.size(); ++i) {
+        if (newIndices[i] == ~0u) continue;
+        result.positions[newIndices[i]] = mesh.positions[i];
+        if (!mesh.normals.empty()) result.normals[newIndices[i]] = mesh.normals[i];
+        if (!mesh.texCoords.empty()) result.texCoords[newIndices[i]] = mesh.texCoords[i];
     }
-    for (std::uint32_t& index : indices) index = places[index];
+    for (std::uint32_t& index : indices) index = newIndices[index];
     result.indices = std::move(indices);
     return result;
 }
@@ -39,10 +39,10 @@ struct QuantisedVertex {
     std::int8_t normal[2];
     std::uint16_t texCoord[2];
 };
-static_assert(sizeof(QuantisedVertex) == 12);
+static_assert(sizeof(QuantisedVertex) == kQuantisedLayout.vertexBytes());
 
 /// Meyer et al., "On floating-point normal vectors", 2010: the octahedron unfolded into a square.
-vec2 octahedral(const vec3& n) {
+vec2 toOctahedral(const vec3& n) {
     const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
     if (!(sum > 0)) return vec2(0);
     const vec2 p(n.x / sum, n.y / sum);
@@ -59,26 +59,27 @@ vec3 fromOctahedral(const vec2& p) {
     return glm::normalize(n);
 }
 
-/// 16 bits a number over the range of all of them.
+/// Numbers of 16 bits, evenly over the range of all values along each axis.
 template <typename Vector>
-class Grid {
+class QuantisationGrid {
 public:
-    explicit Grid(const std::vector<Vector>& values) : lower_(0), step_(1) {
+    explicit QuantisationGrid(const std::vector<Vector>& values) : lower_(0), step_(1) {
         if (values.empty()) return;
         Vector upper = lower_ = values.front();
         for (const Vector& v : values) lower_ = glm::min(lower_, v), upper = glm::max(upper, v);
         step_ = glm::max((upper - lower_) / 65535.0f, Vector(std::numeric_limits<float>::min()));
     }
-    [[nodiscard]] std::uint16_t at(const Vector& value, int axis) const {
+    [[nodiscard]] std::uint16_t encode(const Vector& value, int axis) const {
         return std::uint16_t(std::lround(std::clamp((value[axis] - lower_[axis]) / step_[axis], 0.0f, 65535.0f)));
     }
-    [[nodiscard]] float value(std::uint16_t at, int axis) const { return lower_[axis] + float(at) * step_[axis]; }
+    [[nodiscard]] float decode(std::uint16_t code, int axis) const { return lower_[axis] + float(code) * step_[axis]; }
 
 private:
     Vector lower_, step_;
 };
 
-std::uint64_t meshoptBytes(std::span<const QuantisedVertex> vertices, std::span<const std::uint32_t> indices) {
+/// Bytes of vertices and indices in meshoptimizer's coding.
+std::uint64_t measureMeshoptBytes(std::span<const QuantisedVertex> vertices, std::span<const std::uint32_t> indices) {
     std::vector<unsigned char> buffer(
         std::max(meshopt_encodeVertexBufferBound(vertices.size(), sizeof(QuantisedVertex)),
                  meshopt_encodeIndexBufferBound(indices.size(), vertices.size())));
@@ -97,8 +98,8 @@ void addAttribute(draco::Mesh& mesh, draco::GeometryAttribute::Type type, const 
         mesh.attribute(id)->SetAttributeValue(draco::AttributeValueIndex(i), &values[i][0]);
 }
 
-/// Vertices along seams become one position with several texture coordinates, as Draco wants them.
-void fill(draco::Mesh& result, const DenseMesh& mesh) {
+/// Vertices at seams become one position with several texture coordinates, as Draco expects.
+void fillDracoMesh(draco::Mesh& result, const DenseMesh& mesh) {
     result.set_num_points(std::uint32_t(mesh.positions.size()));
     addAttribute(result, draco::GeometryAttribute::POSITION, mesh.positions);
     addAttribute(result, draco::GeometryAttribute::NORMAL, mesh.normals);
@@ -113,7 +114,7 @@ void fill(draco::Mesh& result, const DenseMesh& mesh) {
     result.DeduplicatePointIds();
 }
 
-std::vector<vec3> vectorsOf(const draco::Mesh& mesh, draco::GeometryAttribute::Type type) {
+std::vector<vec3> readAttribute(const draco::Mesh& mesh, draco::GeometryAttribute::Type type) {
     const draco::PointAttribute* attribute = mesh.GetNamedAttribute(type);
     if (attribute == nullptr) return {};
     std::vector<vec3> values(mesh.num_points());
@@ -123,62 +124,67 @@ std::vector<vec3> vectorsOf(const draco::Mesh& mesh, draco::GeometryAttribute::T
 
 } // namespace
 
-EncodedMesh quantised(const DenseMesh& mesh) {
+EncodedMesh quantiseMesh(const DenseMesh& mesh) {
+    // Triangles in the order that the vertex cache likes, then vertices in the order of the triangles.
     std::vector<std::uint32_t> indices(mesh.indices.size());
     meshopt_optimizeVertexCache(indices.data(), mesh.indices.data(), indices.size(), mesh.positions.size());
-    EncodedMesh result{.decoded = reordered(mesh, std::move(indices))};
+    EncodedMesh result{.decoded = reorderVertices(mesh, std::move(indices))};
     DenseMesh& decoded = result.decoded;
-    const Grid<vec3> positions(decoded.positions);
-    const Grid<vec2> texCoords(decoded.texCoords);
+    // Each vertex is encoded, and decoded again to what a shader would read.
+    const QuantisationGrid<vec3> positions(decoded.positions);
+    const QuantisationGrid<vec2> texCoords(decoded.texCoords);
     std::vector<QuantisedVertex> vertices(decoded.positions.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         QuantisedVertex& v = vertices[i];
         for (int axis = 0; axis < 3; ++axis) {
-            v.position[axis] = positions.at(decoded.positions[i], axis);
-            decoded.positions[i][axis] = positions.value(v.position[axis], axis);
+            v.position[axis] = positions.encode(decoded.positions[i], axis);
+            decoded.positions[i][axis] = positions.decode(v.position[axis], axis);
         }
-        const vec2 normal = decoded.normals.empty() ? vec2(0) : octahedral(decoded.normals[i]);
+        const vec2 normal = decoded.normals.empty() ? vec2(0) : toOctahedral(decoded.normals[i]);
         for (int axis = 0; axis < 2; ++axis) v.normal[axis] = std::int8_t(std::lround(127 * normal[axis]));
         if (!decoded.normals.empty()) decoded.normals[i] = fromOctahedral(vec2(v.normal[0], v.normal[1]) / 127.0f);
         for (int axis = 0; axis < 2 && !decoded.texCoords.empty(); ++axis) {
-            v.texCoord[axis] = texCoords.at(decoded.texCoords[i], axis);
-            decoded.texCoords[i][axis] = texCoords.value(v.texCoord[axis], axis);
+            v.texCoord[axis] = texCoords.encode(decoded.texCoords[i], axis);
+            decoded.texCoords[i][axis] = texCoords.decode(v.texCoord[axis], axis);
         }
     }
-    result.residentBytes = residentBytes(kQuantisedLayout, {vertices.size(), decoded.indices.size() / 3});
-    result.diskBytes = meshoptBytes(vertices, decoded.indices);
+    result.residentBytes = denseBytes(vertices.size(), decoded.indices.size() / 3, kQuantisedLayout);
+    result.diskBytes = measureMeshoptBytes(vertices, decoded.indices);
     return result;
 }
 
-DenseMesh simplified(const DenseMesh& mesh, std::size_t triangles) {
+DenseMesh simplifyMesh(const DenseMesh& mesh, std::size_t triangleCount) {
     std::vector<std::uint32_t> indices(mesh.indices.size());
-    indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), floatsOf(mesh.positions),
-                                    mesh.positions.size(), sizeof(vec3), 3 * triangles, 1.0f, 0, nullptr));
-    return reordered(mesh, std::move(indices));
+    indices.resize(meshopt_simplify(indices.data(), mesh.indices.data(), mesh.indices.size(), toFloats(mesh.positions),
+                                    mesh.positions.size(), sizeof(vec3), 3 * triangleCount, 1.0f, 0, nullptr));
+    return reorderVertices(mesh, std::move(indices));
 }
 
-EncodedMesh dracoEncoded(const DenseMesh& mesh, int positionBits) {
+EncodedMesh encodeWithDraco(const DenseMesh& mesh, int positionBits) {
+    // Encoding.
     draco::Encoder encoder;
     encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, positionBits);
     encoder.SetAttributeQuantization(draco::GeometryAttribute::NORMAL, 8);
     encoder.SetAttributeQuantization(draco::GeometryAttribute::TEX_COORD, 12);
-    encoder.SetSpeedOptions(3, 3); // what its own encoder program does
+    encoder.SetSpeedOptions(3, 3); // the default of Draco's own encoder program
     encoder.SetEncodingMethod(draco::MESH_EDGEBREAKER_ENCODING);
     draco::Mesh whole;
-    fill(whole, mesh);
+    fillDracoMesh(whole, mesh);
     draco::EncoderBuffer buffer;
     if (const draco::Status status = encoder.EncodeMeshToBuffer(whole, &buffer); !status.ok())
         fail(Failure::internal, "Draco does not encode {} triangles: {}", mesh.indices.size() / 3,
              status.error_msg_string());
+    // Decoding: the error is that of the decoded mesh.
     draco::DecoderBuffer coded;
     coded.Init(buffer.data(), buffer.size());
     auto decoded = draco::Decoder().DecodeMeshFromBuffer(&coded);
     if (!decoded.ok())
         fail(Failure::internal, "Draco does not decode what it encoded: {}", decoded.status().error_msg_string());
     const draco::Mesh& from = *decoded.value();
+    RELIEF_CHECK(from.num_faces() <= mesh.indices.size() / 3);
     EncodedMesh result{.diskBytes = buffer.size()};
-    result.decoded.positions = vectorsOf(from, draco::GeometryAttribute::POSITION);
-    result.decoded.normals = vectorsOf(from, draco::GeometryAttribute::NORMAL);
+    result.decoded.positions = readAttribute(from, draco::GeometryAttribute::POSITION);
+    result.decoded.normals = readAttribute(from, draco::GeometryAttribute::NORMAL);
     for (draco::FaceIndex face(0); face < from.num_faces(); ++face)
         for (const draco::PointIndex& point : from.face(face)) result.decoded.indices.push_back(point.value());
     return result;

@@ -11,8 +11,8 @@ constexpr double kWidth = 480, kHeight = 330, kLeft = 66, kRight = 12, kTop = 10
 
 constexpr const char* kDashes[] = {"", "7 4", "2 3", "10 3 2 3", "1 5"};
 
-/// The same mark in legend and plot; one a dash.
-std::string markAt(double x, double y, const LineStyle& style) {
+/// A mark of 6 units, its shape given by the dash; the legend and the plot use the same.
+std::string drawMark(double x, double y, const LineStyle& style) {
     const std::string color = fmt::format("class=\"mark c{}\"", style.color);
     switch (style.dash) {
     case 0: return fmt::format("<circle {} cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.2\"/>", color, x, y);
@@ -23,10 +23,10 @@ std::string markAt(double x, double y, const LineStyle& style) {
     }
 }
 
-/// One axis: what it spans, where values lie and where ticks are.
-class Axis {
+/// Maps the values between `low` and `high` to the coordinates between `from` and `to`, with some room at both ends.
+class PlotAxis {
 public:
-    Axis(double low, double high, bool isLog, double from, double to) : isLog_(isLog), from_(from), to_(to) {
+    PlotAxis(double low, double high, bool isLog, double from, double to) : isLog_(isLog), from_(from), to_(to) {
         if (isLog_) {
             low_ = std::log10(low), high_ = std::log10(high);
             const double room = std::max(0.04 * (high_ - low_), 0.06);
@@ -36,11 +36,13 @@ public:
             low_ = low - room, high_ = high + room;
         }
     }
+    /// The coordinate of a value.
     [[nodiscard]] double at(double value) const {
+        RELIEF_CHECK((!isLog_ || value > 0));
         const double x = isLog_ ? std::log10(value) : value;
         return from_ + (x - low_) / (high_ - low_) * (to_ - from_);
     }
-    /// At most about seven: whole decades, or 1 2 5 where there are few.
+    /// About seven values at most: whole decades, or steps of 1, 2 and 5 where there are few decades.
     [[nodiscard]] std::vector<double> ticks() const {
         std::vector<double> all;
         if (!isLog_) {
@@ -48,6 +50,7 @@ public:
             for (int i = int(std::ceil(low_ / step)); i * step <= high_; ++i) all.push_back(i * step);
             return all;
         }
+        // The fewer decades, the more digits of each have a tick.
         const double decades = high_ - low_;
         const int every = std::max(1, int(std::ceil(decades / 7)));
         const std::vector<double> digits = decades > 2.2   ? std::vector<double>{1}
@@ -78,84 +81,85 @@ struct AxisRange {
     void add(double x) { low = std::min(low, x), high = std::max(high, x); }
 };
 
-std::string pathOf(const std::vector<dvec2>& points, const Axis& x, const Axis& y) {
+std::string tracePath(const std::vector<dvec2>& points, const PlotAxis& x, const PlotAxis& y) {
     std::string path;
     for (const dvec2& p : points)
         path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", x.at(p.x), y.at(p.y));
     return path;
 }
 
-/// The band between a line and the one above it.
-std::string bandOf(const PlotLine& line, const Axis& x, const Axis& y) {
+/// The band between a line and its upper border.
+std::string drawBand(const PlotLine& line, const PlotAxis& x, const PlotAxis& y) {
     std::vector<dvec2> border = line.points;
     border.insert(border.end(), line.upper.rbegin(), line.upper.rend());
-    return fmt::format("<path class=\"band f{}\" d=\"{}Z\"/>", line.style.color, pathOf(border, x, y));
+    return fmt::format("<path class=\"band f{}\" d=\"{}Z\"/>", line.style.color, tracePath(border, x, y));
 }
 
-std::string lineOf(const PlotLine& line, const Axis& x, const Axis& y) {
+std::string drawLine(const PlotLine& line, const PlotAxis& x, const PlotAxis& y) {
     const auto stroke = [&](const std::vector<dvec2>& points, const char* more) {
         return fmt::format("<path class=\"line c{}{}\" stroke-dasharray=\"{}\" d=\"{}\"/>", line.style.color, more,
-                           kDashes[line.style.dash], pathOf(points, x, y));
+                           kDashes[line.style.dash], tracePath(points, x, y));
     };
     std::string svg = stroke(line.points, "");
     if (!line.upper.empty()) svg += stroke(line.upper, " thin");
-    for (const dvec2& p : line.points) svg += markAt(x.at(p.x), y.at(p.y), line.style);
+    for (const dvec2& p : line.points) svg += drawMark(x.at(p.x), y.at(p.y), line.style);
     return svg;
 }
 
-std::string axesOf(const Plot& plot, const Axis& x, const Axis& y) {
+std::string drawAxes(const Plot& plot, const PlotAxis& x, const PlotAxis& y) {
     std::string svg;
     for (const double tick : x.ticks())
-        svg += fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" "
-                           "text-anchor=\"middle\">{4}</text>",
-                           x.at(tick), kTop, kHeight - kBottom, kHeight - kBottom + 16, wordOf(tick, plot.xScale));
+        svg +=
+            fmt::format("<path class=\"grid\" d=\"M{0:.1f} {1}V{2}\"/><text x=\"{0:.1f}\" y=\"{3}\" "
+                        "text-anchor=\"middle\">{4}</text>",
+                        x.at(tick), kTop, kHeight - kBottom, kHeight - kBottom + 16, formatNumber(tick, plot.xScale));
     for (const double tick : y.ticks())
-        svg += fmt::format("<path class=\"grid\" d=\"M{1} {0:.1f}H{2}\"/><text x=\"{3}\" y=\"{4:.1f}\" "
-                           "text-anchor=\"end\">{5}</text>",
-                           y.at(tick), kLeft, kWidth - kRight, kLeft - 6, y.at(tick) + 4, wordOf(tick, plot.yScale));
+        svg +=
+            fmt::format("<path class=\"grid\" d=\"M{1} {0:.1f}H{2}\"/><text x=\"{3}\" y=\"{4:.1f}\" "
+                        "text-anchor=\"end\">{5}</text>",
+                        y.at(tick), kLeft, kWidth - kRight, kLeft - 6, y.at(tick) + 4, formatNumber(tick, plot.yScale));
     svg += fmt::format("<path class=\"axis\" d=\"M{} {}V{}H{}\"/>", kLeft, kTop, kHeight - kBottom, kWidth - kRight);
     svg += fmt::format("<text class=\"label\" x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>",
-                       (kLeft + kWidth - kRight) / 2, kHeight - 8, escaped(plot.xLabel));
+                       (kLeft + kWidth - kRight) / 2, kHeight - 8, escapeHtml(plot.xLabel));
     return svg;
 }
 
-std::string ruleOf(const Plot& plot, const Axis& y) {
+std::string drawRule(const Plot& plot, const PlotAxis& y) {
     if (!plot.rule) return "";
     const double at = y.at(*plot.rule);
-    const auto words = [&](const std::string& text, double dy) {
+    const auto drawNote = [&](const std::string& text, double dy) {
         return text.empty() ? ""
                             : fmt::format("<text class=\"note\" x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>",
-                                          kWidth - kRight - 4, at + dy, escaped(text));
+                                          kWidth - kRight - 4, at + dy, escapeHtml(text));
     };
     return fmt::format("<rect class=\"loss\" x=\"{0}\" y=\"{1:.1f}\" width=\"{2}\" height=\"{3:.1f}\"/>"
                        "<path class=\"rule\" d=\"M{0} {1:.1f}h{2}\"/>",
                        kLeft, at, kWidth - kLeft - kRight, std::max(0.0, kHeight - kBottom - at)) +
-           words(plot.aboveRule, -6) + words(plot.belowRule, 15);
+           drawNote(plot.aboveRule, -6) + drawNote(plot.belowRule, 15);
 }
 
-std::string legendOf(const Plot& plot) {
+std::string drawLegend(const Plot& plot) {
     std::string html = "<ul class=\"legend\">";
     for (const PlotLine& line : plot.lines)
         if (!line.points.empty())
-            html +=
-                fmt::format("<li><svg viewBox=\"0 0 34 12\" aria-hidden=\"true\"><path class=\"line c{}\" "
-                            "stroke-dasharray=\"{}\" d=\"M1 6H33\"/>{}</svg>{}</li>",
-                            line.style.color, kDashes[line.style.dash], markAt(17, 6, line.style), escaped(line.name));
+            html += fmt::format("<li><svg viewBox=\"0 0 34 12\" aria-hidden=\"true\"><path class=\"line c{}\" "
+                                "stroke-dasharray=\"{}\" d=\"M1 6H33\"/>{}</svg>{}</li>",
+                                line.style.color, kDashes[line.style.dash], drawMark(17, 6, line.style),
+                                escapeHtml(line.name));
     return html + "</ul>";
 }
 
-/// A number without trailing zeros.
-std::string shortNumber(double value) { return fmt::format("{:.3g}", value); }
+std::string formatShort(double value) { return fmt::format("{:.3g}", value); }
 
-std::string scaled(double value, std::initializer_list<std::pair<double, const char*>> units) {
+std::string scaleNumber(double value, std::initializer_list<std::pair<double, const char*>> units) {
     for (const auto& [unit, name] : units)
-        if (std::abs(value) >= 0.9999 * unit) return shortNumber(value / unit) + name;
-    return shortNumber(value);
+        if (std::abs(value) >= 0.9999 * unit) return formatShort(value / unit) + name;
+    return formatShort(value);
 }
 
 } // namespace
 
-std::string escaped(const std::string& text) {
+std::string escapeHtml(const std::string& text) {
     std::string html;
     for (const char letter : text) {
         switch (letter) {
@@ -169,38 +173,40 @@ std::string escaped(const std::string& text) {
     return html;
 }
 
-std::string wordOf(double value, Scale scale) {
+std::string formatNumber(double value, Scale scale) {
     switch (scale) {
-    case Scale::bytes: return scaled(value, {{1e9, " GB"}, {1e6, " MB"}, {1e3, " kB"}, {1, " B"}});
-    case Scale::milliseconds: return scaled(value, {{1e3, " s"}, {1, " ms"}, {1e-3, " µs"}});
-    case Scale::nanoseconds: return scaled(value, {{1e6, " ms"}, {1e3, " µs"}, {1, " ns"}});
+    case Scale::bytes: return scaleNumber(value, {{1e9, " GB"}, {1e6, " MB"}, {1e3, " kB"}, {1, " B"}});
+    case Scale::milliseconds: return scaleNumber(value, {{1e3, " s"}, {1, " ms"}, {1e-3, " µs"}});
+    case Scale::nanoseconds: return scaleNumber(value, {{1e6, " ms"}, {1e3, " µs"}, {1, " ns"}});
     case Scale::percent: return fmt::format("{:.6g} %", 100 * value);
-    case Scale::count: return scaled(value, {{1e6, " M"}, {1e3, " k"}});
-    case Scale::ratio: return shortNumber(value) + " ×";
-    case Scale::decibels: return shortNumber(value) + " dB";
+    case Scale::count: return scaleNumber(value, {{1e6, " M"}, {1e3, " k"}});
+    case Scale::ratio: return formatShort(value) + " ×";
+    case Scale::decibels: return formatShort(value) + " dB";
     }
     return "";
 }
 
-std::string figureOf(const Plot& plot) {
+std::string drawFigure(const Plot& plot) {
+    // The axes span all points of all lines.
     AxisRange xs, ys;
     for (const PlotLine& line : plot.lines)
         for (const auto* points : {&line.points, &line.upper})
             for (const dvec2& p : *points) xs.add(p.x), ys.add(p.y);
     if (!(xs.low <= xs.high)) return "";
-    if (plot.rule) ys.add(*plot.rule * 0.8), ys.add(*plot.rule * 1.25); // room for the words beside it
-    const Axis x(xs.low, xs.high, true, kLeft, kWidth - kRight);
-    const Axis y(ys.low, ys.high, plot.isYLog, kHeight - kBottom, kTop);
-    std::string svg = ruleOf(plot, y) + axesOf(plot, x, y);
+    if (plot.rule) ys.add(*plot.rule * 0.8), ys.add(*plot.rule * 1.25); // room for the notes beside it
+    const PlotAxis x(xs.low, xs.high, true, kLeft, kWidth - kRight);
+    const PlotAxis y(ys.low, ys.high, plot.isYLog, kHeight - kBottom, kTop);
+    // Later parts cover earlier ones: bands lie below all lines.
+    std::string svg = drawRule(plot, y) + drawAxes(plot, x, y);
     for (const PlotLine& line : plot.lines)
-        if (!line.points.empty() && !line.upper.empty()) svg += bandOf(line, x, y);
+        if (!line.points.empty() && !line.upper.empty()) svg += drawBand(line, x, y);
     for (const PlotLine& line : plot.lines)
-        if (!line.points.empty()) svg += lineOf(line, x, y);
+        if (!line.points.empty()) svg += drawLine(line, x, y);
     return fmt::format(
         "<figure><figcaption><b>{}</b><span class=\"y\">{}</span></figcaption>"
         "<svg class=\"plot\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">{}</svg>{}{}</figure>\n",
-        escaped(plot.title), escaped(plot.yLabel), kWidth, kHeight, escaped(plot.title + ": " + plot.yLabel), svg,
-        legendOf(plot), plot.caption.empty() ? "" : "<p class=\"caption\">" + escaped(plot.caption) + "</p>");
+        escapeHtml(plot.title), escapeHtml(plot.yLabel), kWidth, kHeight, escapeHtml(plot.title + ": " + plot.yLabel),
+        svg, drawLegend(plot), plot.caption.empty() ? "" : "<p class=\"caption\">" + escapeHtml(plot.caption) + "</p>");
 }
 
 } // namespace relief

@@ -1,13 +1,12 @@
 #include <algorithm>
 
-#include "measure/goals.h"
 #include "measure/page.h"
 
 namespace relief {
 namespace {
 
 /// RFC 4648, section 4.
-std::string base64(const std::string& bytes) {
+std::string toBase64(const std::string& bytes) {
     static constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::string text;
     text.reserve((bytes.size() + 2) / 3 * 4);
@@ -19,159 +18,183 @@ std::string base64(const std::string& bytes) {
     return text;
 }
 
-std::string cellOf(const Value& value) {
-    const Spread spread = spreadOf(value.samples);
+std::string makeCell(const Value& value) {
+    const Spread spread = computeSpread(value.samples);
+    const Unit unit = describe(value.metric).unit;
     std::string text;
-    if (value.unit == "bytes")
-        text = wordOf(spread.median, Scale::bytes);
-    else if (value.unit == "ms")
-        text = wordOf(spread.median, Scale::milliseconds);
-    else if (value.unit == "of the diagonal")
-        text = wordOf(spread.median, Scale::percent);
-    else if (spread.median >= 1e4)
-        text = wordOf(spread.median, Scale::count);
-    else
-        text = fmt::format("{:.4g}{}", spread.median, value.unit == "dB" ? " dB" : "");
-    if (value.unit == "of the diagonal") text = fmt::format("{:.2g} %", 100 * spread.median);
-    if (value.samples.size() > 1 && value.unit == "ms")
+    switch (unit) {
+    case Unit::bytes: text = formatNumber(spread.median, Scale::bytes); break;
+    case Unit::milliseconds: text = formatNumber(spread.median, Scale::milliseconds); break;
+    case Unit::diagonal: text = fmt::format("{:.2g} %", 100 * spread.median); break;
+    case Unit::decibels: text = fmt::format("{:.4g} dB", spread.median); break;
+    default:
+        text = spread.median >= 1e4 ? formatNumber(spread.median, Scale::count) : fmt::format("{:.4g}", spread.median);
+    }
+    if (value.samples.size() > 1 && unit == Unit::milliseconds)
         text += fmt::format(" <small>{:.3g}–{:.3g}</small>", spread.p5, spread.p95);
     return fmt::format("<td{}>{}</td>", value.origin == Origin::computed ? " class=\"computed\"" : "", text);
 }
 
-std::string goalTable(const std::vector<Goal>& goals) {
-    std::string html = "<div class=\"scroll\"><table><tr><th class=\"words\">figure to reach</th><th>wanted</th>"
-                       "<th>found</th><th></th></tr>";
-    for (const Goal& goal : goals) {
-        const bool hasReason = !goal.isMet() && !goal.reason.empty();
-        html += fmt::format("<tr><td class=\"words\">{}<br><small>{}{}{}</small></td><td>{} {:.4g}{}</td>"
-                            "<td>{:.3g}{}</td><td class=\"{}\">{}</td></tr>",
-                            escaped(goal.what), escaped(goal.scene), hasReason ? "<br>" : "",
-                            hasReason ? escaped(goal.reason) : "", goal.isAtLeast ? "≥" : "≤", goal.wanted, goal.unit,
-                            goal.found, goal.unit, goal.isMet() ? "good" : "bad", goal.isMet() ? "met" : "missed");
+std::string makeGoalTable(const std::vector<GoalResult>& results) {
+    if (results.empty()) return "";
+    std::string html = "<h2>Figures to reach</h2><div class=\"scroll\"><table><tr><th class=\"words\">figure</th>"
+                       "<th>wanted</th><th>found</th><th></th></tr>";
+    for (const GoalResult& result : results) {
+        const Goal& goal = result.goal;
+        const bool hasReason = !result.isMet() && !goal.reason.empty();
+        html += fmt::format("<tr><td class=\"words\">{}<br><small>{}{}{}</small></td><td>{} {}</td><td>{}</td>"
+                            "<td class=\"{}\">{}</td></tr>",
+                            escapeHtml(goal.name), escapeHtml(result.scene), hasReason ? "<br>" : "",
+                            hasReason ? escapeHtml(goal.reason) : "", goal.isAtLeast ? "≥" : "≤",
+                            formatGoal(goal, goal.value), formatGoal(goal, result.found),
+                            result.isMet() ? "good" : "bad", result.isMet() ? "met" : "missed");
     }
     return html + "</table></div>";
 }
 
-std::string keyTable(const Results& results) {
+/// The meaning of every metric that the results have.
+std::string makeMetricList(const Results& results) {
+    std::vector<const Row*> rows;
+    for (const Row& row : results.rows) rows.push_back(&row);
+    std::string html = "<ul class=\"words\">";
+    for (const Metric metric : listMetrics(rows))
+        html += fmt::format("<li><b>{}.</b> {}</li>", escapeHtml(describe(metric).name),
+                            escapeHtml(describe(metric).meaning));
+    return html + "</ul>";
+}
+
+std::string makeKeyTable(const Results& results) {
     std::string html = "<div class=\"scroll\"><table>";
     for (const auto& [name, part] : {std::pair("program", &results.program), std::pair("machine", &results.machine),
                                      std::pair("device", &results.device), std::pair("settings", &results.settings)})
         for (const auto& [key, value] : *part)
-            html +=
-                fmt::format("<tr><td>{}: {}</td><td class=\"words\">{}</td></tr>", name, escaped(key), escaped(value));
+            html += fmt::format("<tr><td>{}: {}</td><td class=\"words\">{}</td></tr>", name, escapeHtml(key),
+                                escapeHtml(value));
     return html + "</table></div>";
 }
 
-/// Every table of a suite, a scene and an axis each.
-std::string tablesOf(const Results& results, const std::string& suite) {
-    std::string html;
-    std::vector<std::pair<std::string, std::string>> kinds;
+/// The tables of a suite, one per scene and axis, in order of appearance.
+std::string makeTables(const Results& results, Suite suite) {
+    std::vector<std::pair<std::string, Axis>> kinds;
     for (const Row& row : results.rows)
         if (row.suite == suite && std::ranges::find(kinds, std::pair(row.scene, row.axis)) == kinds.end())
             kinds.emplace_back(row.scene, row.axis);
-    for (const auto& [scene, axis] : kinds) {
-        std::vector<const Row*> rows = rowsOf(results, suite, axis);
-        std::erase_if(rows, [&, s = scene](const Row* row) { return row->scene != s; });
-        html += "<p class=\"soft\">" + escaped(scene) + "</p>" + tableOfRows(rows);
-    }
+    std::string html;
+    for (const auto& [scene, axis] : kinds)
+        html += "<p class=\"soft\">" + escapeHtml(scene) + "</p>" +
+                makeHtmlTable(selectScene(selectRows(results, suite, axis), scene));
     return html;
 }
 
-std::string section(const Results& results, const char* suite, const char* title, const std::string& words,
-                    const std::string& figures, bool isFolded) {
-    const std::string tables = tablesOf(results, suite);
+/// The part of the report about one suite: texts in HTML.
+struct Section {
+    Suite suite;
+    const char* title;
+    const char* introduction;
+    std::string figures;
+};
+
+/// Empty where the suite did not run. Tables are folded away where there are figures.
+std::string makeSection(const Results& results, const Section& section) {
+    const std::string tables = makeTables(results, section.suite);
     if (tables.empty()) return "";
-    return fmt::format("<h2>{}</h2><p>{}</p>\n{}{}{}{}\n", title, words, figures,
+    const bool isFolded = !section.figures.empty();
+    return fmt::format("<h2>{}</h2><p>{}</p>\n{}{}{}{}\n", section.title, section.introduction, section.figures,
                        isFolded ? "<details><summary>all numbers</summary>" : "", tables, isFolded ? "</details>" : "");
 }
 
-std::string pictureStrip(const Results& results) {
+std::string makePictureStrip(const Results& results) {
     if (results.pictures.empty()) return "";
-    std::string html = "<h2>Both sides, and what differs</h2><p>The same view of both at the same RMS distance to the "
-                       "reference; the difference eight times as strong.</p>";
-    const auto picture = [](const std::string& png, const std::string& words) {
-        return fmt::format("<div><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><p>{0}</p></div>", escaped(words),
-                           base64(png));
+    std::string html =
+        "<h2>Pictures at equal error</h2><p>The same view of two methods at the same RMS distance to the "
+        "reference, and their difference times eight.</p>";
+    const auto picture = [](const std::string& png, const std::string& caption) {
+        return fmt::format("<div><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><p>{0}</p></div>",
+                           escapeHtml(caption), toBase64(png));
     };
     for (const PicturePair& pair : results.pictures)
-        html += fmt::format("<p class=\"soft\">{}, {}</p><div class=\"strip\">{}{}{}</div>\n", escaped(pair.scene),
-                            escaped(pair.title), picture(pair.leftPng, pair.left), picture(pair.rightPng, pair.right),
-                            picture(pair.differencePng, "difference × 8"));
+        html += fmt::format("<p class=\"soft\">{}, {}</p><div class=\"strip\">{}{}{}</div>\n", escapeHtml(pair.scene),
+                            escapeHtml(pair.title), picture(pair.leftPng, pair.left),
+                            picture(pair.rightPng, pair.right), picture(pair.differencePng, "difference × 8"));
     return html;
 }
 
-std::string notesOf(const Results& results) {
+std::string makeNotes(const Results& results) {
     if (results.notes.empty()) return "";
     std::string html = "<h2>What is not here</h2><ul class=\"words\">";
-    for (const std::string& note : results.notes) html += "<li>" + escaped(note) + "</li>";
+    for (const std::string& note : results.notes) html += "<li>" + escapeHtml(note) + "</li>";
     return html + "</ul>";
 }
 
-std::string wordOfDevice(const Results& results, const char* key) {
+std::string describeDevice(const Results& results, const char* key) {
     const auto found = results.device.find(key);
-    return found == results.device.end() ? "" : escaped(found->second);
+    return found == results.device.end() ? "" : escapeHtml(found->second);
 }
 
 } // namespace
 
-std::string tableOfRows(std::span<const Row* const> rows) {
-    std::vector<std::string> columns;
-    for (const Row* row : rows)
-        for (const Value& value : row->values)
-            if (std::ranges::find(columns, value.name) == columns.end()) columns.push_back(value.name);
-    const std::string& axis = rows.front()->axis;
-    std::string html = "<div class=\"scroll\"><table><tr><th class=\"words\">contestant</th>";
-    if (!axis.empty()) html += "<th>" + escaped(axis) + "</th>";
-    for (const std::string& name : columns) html += "<th>" + escaped(name) + "</th>";
+std::string makeHtmlTable(std::span<const Row* const> rows) {
+    const std::vector<Metric> columns = listMetrics(rows);
+    const Axis axis = rows.front()->axis;
+    std::string html = "<div class=\"scroll\"><table><tr><th class=\"words\">method</th>";
+    if (axis != Axis::none) html += fmt::format("<th>{}</th>", toWord(axis));
+    for (const Metric metric : columns)
+        html += fmt::format("<th title=\"{}\">{}</th>", escapeHtml(describe(metric).meaning),
+                            escapeHtml(describe(metric).name));
     html += "</tr>";
     for (const Row* row : rows) {
-        html += "<tr><td>" + escaped(row->contestant) + "</td>";
-        if (axis == "tolerance")
-            html += fmt::format("<td>{}</td>", wordOf(row->at, Scale::percent));
-        else if (!axis.empty())
-            html += fmt::format("<td>{}</td>", wordOf(row->at, Scale::count));
-        for (const std::string& name : columns)
-            html += row->find(name) != nullptr ? cellOf(*row->find(name)) : "<td></td>";
+        html += fmt::format("<tr><td>{}</td>", escapeHtml(toWord(row->method)));
+        if (axis != Axis::none)
+            html += fmt::format("<td>{}</td>",
+                                formatNumber(row->at, axis == Axis::tolerance ? Scale::percent : Scale::count));
+        for (const Metric metric : columns)
+            html += row->find(metric) != nullptr ? makeCell(*row->find(metric)) : "<td></td>";
         html += "</tr>";
     }
     return html + "</table></div>\n";
 }
 
-std::string reportOf(const Results& results) {
-    const std::vector<Goal> goals = goalsOf(results);
+std::string makeReport(const Results& results, std::span<const Goal> goals) {
+    // Head and introduction.
     std::string html = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">"
                        "<link rel=\"icon\" href=\"data:,\"><title>relief bench</title><style>" +
                        styleSheet() + "</style></head><body>\n<h1>What displacement saves, and where it loses</h1>\n";
-    html += fmt::format("<p class=\"soft\">A cage and a height map against dense meshes of the same error, on {} ({}). "
-                        "Numbers marked ∗ follow by arithmetic from what was measured; all others were measured.</p>\n",
-                        wordOfDevice(results, "name"), wordOfDevice(results, "driver"));
+    html += fmt::format("<p class=\"soft\">A cage and a height map compared with dense meshes of the same error, on {} "
+                        "({}). Numbers marked ∗ are computed from measured ones; all others were measured.</p>\n",
+                        describeDevice(results, "name"), describeDevice(results, "driver"));
     if (const auto quick = results.settings.find("quick"); quick != results.settings.end() && quick->second == "yes")
-        html +=
-            "<p class=\"bad\">A quick run: small meshes and few rounds. Good for a first look, not for figures.</p>";
-    if (!goals.empty()) html += "<h2>Figures to reach</h2>" + goalTable(goals);
+        html += "<p class=\"bad\">A quick run: small meshes and few rounds. Good for a first look, not for figures to "
+                "quote.</p>";
+    html += makeGoalTable(evaluateGoals(goals, results));
+
+    // The suites, the most telling first.
+    html += makeSection(results, {Suite::bandwidth, "Bytes at equal error",
+                                  "Each method is made as small as it can be within a tolerance of the reference.",
+                                  drawBandwidthFigures(results)});
+    html += makePictureStrip(results);
+    html += makeSection(
+        results,
+        {Suite::scaling, "Break-even",
+         "Above the line the displaced surface takes less than the dense mesh of the same triangles, below it more.",
+         drawBreakEvenFigures(results) + "<h2>Against the number of triangles</h2>" + drawScalingFigures(results)});
     html +=
-        section(results, "bandwidth", "Bytes at equal error",
-                "Every contestant is made as small as it can be while it stays within a tolerance of the reference.",
-                bandwidthFigures(results), true);
-    html += pictureStrip(results);
-    html +=
-        section(results, "scaling", "Break-even",
-                "Above the line the displaced surface takes less than the dense mesh of the same triangles, below it "
-                "more.",
-                breakEvenFigures(results) + "<h2>Against the number of triangles</h2>" + scalingFigures(results), true);
-    html += section(results, "frame", "A frame of a million triangles", "Passes as the device timed them.", "", false);
-    html +=
-        section(results, "animate", "Animation", "What a new pose sends to the device.", animateFigures(results), true);
-    html += section(
-        results, "memory", "Memory",
-        "The buffers that one frame of ten million triangles lists, and the most resident memory of the process "
-        "that draws it, beside the same process with one segment an edge. With a CPU driver that is the "
-        "driver's memory, too: lavapipe keeps the triangles that it has binned and not yet drawn.",
-        "", false);
-    html += section(results, "startup", "Starting up", "A whole relief render of a process of its own.", "", false);
-    html += "<h2>What the numbers assume</h2>" + assumptions() + notesOf(results);
-    html += "<h2>This run</h2>" + keyTable(results) + "</body></html>\n";
+        makeSection(results, {Suite::frame, "A frame of a million triangles", "Passes as the device timed them.", ""});
+    html += makeSection(
+        results, {Suite::animate, "Animation", "What a new pose sends to the device.", drawAnimateFigures(results)});
+    html += makeSection(
+        results,
+        {Suite::memory, "Memory",
+         "The buffers of one frame of ten million triangles, and the peak memory of the process that draws it, "
+         "beside the same process with one segment per edge. A driver on the processor has its memory there, "
+         "too: lavapipe keeps the triangles that it has binned and not yet drawn.",
+         ""});
+    html += makeSection(results, {Suite::startup, "Starting up", "A whole relief render in a process of its own.", ""});
+
+    // How to read the numbers, and where they come from.
+    html += "<h2>Metrics</h2>" + makeMetricList(results);
+    html += "<h2>What the numbers assume</h2>" + describeAssumptions() + makeNotes(results);
+    html += "<h2>This run</h2>" + makeKeyTable(results) + "</body></html>\n";
     return html;
 }
 

@@ -1,4 +1,4 @@
-// A map in fewer texels: the least-squares fit of what lookups read of it.
+// A map of fewer texels: the least-squares fit of what lookups read of it.
 #include <algorithm>
 #include <cmath>
 
@@ -7,13 +7,14 @@
 namespace relief {
 namespace {
 
-/// Where a point of a line lies between the centres of its texels.
-struct Place {
+/// The two texels of a line between whose centres a point lies.
+struct TexelPair {
     std::size_t first = 0, second = 0;
-    double share = 0; ///< of the second
+    double weight = 0; ///< of the second; the first has 1 - weight
 };
 
-Place placeOf(double x, std::size_t count, Wrap wrap) {
+/// `x`: 0..1 along the line of `count` texels.
+TexelPair findTexels(double x, std::size_t count, Wrap wrap) {
     const double at = x * double(count) - 0.5, whole = std::floor(at);
     const auto texel = [&](double i) {
         if (wrap == Wrap::clamp) return std::size_t(std::clamp(i, 0.0, double(count - 1)));
@@ -22,34 +23,37 @@ Place placeOf(double x, std::size_t count, Wrap wrap) {
     return {texel(whole), texel(whole + 1), at - whole};
 }
 
-/// Fits lines of `to` texels to lines of `from`: both are piecewise linear, and the sum of squared differences at two
-/// points a texel is the least. Its normal equations have three entries a row; Gauss and Seidel's sweeps leave a
-/// quarter of the error each, or less.
+/// Fits lines of `to` texels to lines of `from` texels. Both are piecewise linear; the sum of squared differences at
+/// two points per texel becomes least. The matrix of the normal equations has three entries per row; each Gauss-Seidel
+/// sweep leaves a quarter of the error or less.
 class LineFit {
 public:
     LineFit(std::size_t from, std::size_t to, Wrap wrap) : diagonal_(to, 0), after_(to, 0), right_(to) {
         const std::size_t count = 2 * std::max(from, to);
         for (std::size_t k = 0; k < count; ++k) {
             const double x = (double(k) + 0.5) / double(count);
-            from_.push_back(placeOf(x, from, wrap));
-            const Place& p = to_.emplace_back(placeOf(x, to, wrap));
-            diagonal_[p.first] += (1 - p.share) * (1 - p.share);
-            diagonal_[p.second] += p.share * p.share;
+            from_.push_back(findTexels(x, from, wrap));
+            const TexelPair& p = to_.emplace_back(findTexels(x, to, wrap));
+            diagonal_[p.first] += (1 - p.weight) * (1 - p.weight);
+            diagonal_[p.second] += p.weight * p.weight;
             if (p.first == p.second)
-                diagonal_[p.first] += 2 * p.share * (1 - p.share);
+                diagonal_[p.first] += 2 * p.weight * (1 - p.weight);
             else
-                after_[p.first] += p.share * (1 - p.share); // the second is the one after the first
+                after_[p.first] += p.weight * (1 - p.weight); // the second is the one after the first
         }
     }
 
     void fit(std::span<const float> from, std::span<float> to) {
+        RELIEF_CHECK(to.size() == right_.size());
+        // The right side of the normal equations, from the samples of this line.
         std::ranges::fill(right_, 0);
         for (std::size_t k = 0; k < from_.size(); ++k) {
-            const Place &f = from_[k], &t = to_[k];
-            const double value = std::lerp(double(from[f.first]), double(from[f.second]), f.share);
-            right_[t.first] += (1 - t.share) * value;
-            right_[t.second] += t.share * value;
+            const TexelPair &f = from_[k], &t = to_[k];
+            const double value = std::lerp(double(from[f.first]), double(from[f.second]), f.weight);
+            right_[t.first] += (1 - t.weight) * value;
+            right_[t.second] += t.weight * value;
         }
+        // Gauss-Seidel, from the solution of the diagonal alone.
         const std::size_t n = to.size();
         std::vector<double> x(n);
         for (std::size_t i = 0; i < n; ++i) x[i] = right_[i] / diagonal_[i];
@@ -62,12 +66,12 @@ public:
     }
 
 private:
-    std::vector<Place> from_, to_;
-    std::vector<double> diagonal_, after_, right_; ///< entry (i, i), entry (i, i + 1), and what they have to make
+    std::vector<TexelPair> from_, to_;
+    std::vector<double> diagonal_, after_, right_; ///< entries (i, i), entries (i, i + 1), right side
 };
 
-/// The same map on its side, so that lines are columns.
-std::vector<float> turned(std::span<const float> texels, std::size_t width) {
+/// Exchanges rows and columns.
+std::vector<float> transpose(std::span<const float> texels, std::size_t width) {
     const std::size_t height = texels.size() / width;
     std::vector<float> columns(texels.size());
     for (std::size_t y = 0; y < height; ++y)
@@ -75,6 +79,7 @@ std::vector<float> turned(std::span<const float> texels, std::size_t width) {
     return columns;
 }
 
+/// `texels`: lines of `from` texels; the result has lines of `to`.
 std::vector<float> fitLines(std::span<const float> texels, std::size_t from, std::size_t to, Wrap wrap) {
     if (from == to) return {texels.begin(), texels.end()};
     LineFit line(from, to, wrap);
@@ -86,12 +91,13 @@ std::vector<float> fitLines(std::span<const float> texels, std::size_t from, std
 
 } // namespace
 
-HeightMap resampled(const HeightMap& map, int width, int height) {
+HeightMap resampleMap(const HeightMap& map, int width, int height) {
+    RELIEF_CHECK(map.texels.size() == std::size_t(map.width) * std::size_t(map.height));
     const auto from = std::size_t(map.width), to = std::size_t(width);
     const std::vector<float> rows = fitLines(map.texels, from, to, map.wrap);
     const std::vector<float> columns =
-        fitLines(turned(rows, to), std::size_t(map.height), std::size_t(height), map.wrap);
-    return makeHeightMap(width, height, turned(columns, std::size_t(height)), map.mid, map.scale, map.wrap);
+        fitLines(transpose(rows, to), std::size_t(map.height), std::size_t(height), map.wrap);
+    return makeHeightMap(width, height, transpose(columns, std::size_t(height)), map.mid, map.scale, map.wrap);
 }
 
 } // namespace relief

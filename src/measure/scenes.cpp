@@ -1,16 +1,16 @@
-// The scenes that come with the program: what they are made of is code, so that every run measures the same.
+// The scenes that are built in. Their maps are made by code, so that every run measures the same.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
 #include "bake/bake.h"
 #include "measure/embedded.h"
-#include "measure/parts.h"
+#include "measure/suite.h"
 
 namespace relief {
 namespace {
 
-/// Random numbers 0..1 that are the same everywhere (Knuth, TAOCP 2, 3.2.1: a linear congruential sequence).
+/// Random numbers 0..1, the same on every machine (a linear congruential sequence: Knuth, TAOCP 2, 3.2.1).
 class Random {
 public:
     double operator()() {
@@ -22,10 +22,10 @@ private:
     std::uint64_t state_ = 1;
 };
 
-/// A sum of plane waves in all directions: smooth noise whose finest feature is known, about -1..1.
+/// A sum of plane waves in all directions, about -1..1: smooth noise whose finest feature is known.
 class Waves {
 public:
-    /// Wavelengths from `shortest` to four times that, cage units; the longer the higher.
+    /// Wavelengths from `shortest` (cage units) to four times that; amplitudes in proportion to them.
     Waves(int count, double shortest) {
         Random random;
         double squares = 0;
@@ -53,23 +53,25 @@ private:
     std::vector<Wave> waves_;
 };
 
-/// Plates with rims of a texel or two: grooves where the noise crosses zero, and two levels of plates beside them.
-float crispOf(float wave) {
+/// Turns noise into plates with rims of a texel or two: grooves where the noise crosses zero, and plates of two levels
+/// on both sides.
+float makePlate(float wave) {
     if (std::abs(wave) < 0.06f) return -1;
     if (wave > 0) return wave > 0.35f ? 1 : 0.5f;
     return wave < -0.35f ? -0.2f : 0.2f;
 }
 
-HeightMap painted(const Cage& cage, int side, double reach, const std::function<double(const dvec3&)>& height) {
+/// Paints `height` (-1..1 of a point of the limit surface) onto a square map whose displacement bound is `bound`.
+HeightMap paintMap(const Cage& cage, int side, double bound, const std::function<double(const dvec3&)>& height) {
     Atlas atlas(cage, side, side);
     Image image{side, side, 1, std::vector<float>(std::size_t(side) * std::size_t(side))};
     atlas.forEachTexel([&](int x, int y, const SurfacePoint& point) { *image.at(x, y) = float(height(point.p)); });
     atlas.spread(image);
-    return makeHeightMap(side, side, std::move(image.texels), 0, reach, Wrap::clamp);
+    return makeHeightMap(side, side, std::move(image.texels), 0, bound, Wrap::clamp);
 }
 
-/// The production cage in the folder RELIEF_DATA, else the project's own octopus.
-std::pair<std::string, Cage> builtInCage() {
+/// The production cage in the folder RELIEF_DATA where it is there, else the octopus.
+std::pair<std::string, Cage> readBuiltInCage() {
     const char* folder = std::getenv("RELIEF_DATA");
     const std::string path = std::string(folder != nullptr ? folder : "") + "/bigguy.obj";
     if (folder != nullptr && std::filesystem::exists(path)) return {"bigguy", readCage(path)};
@@ -78,16 +80,16 @@ std::pair<std::string, Cage> builtInCage() {
 
 } // namespace
 
-std::vector<Subject> builtInSubjects(bool isQuick) {
-    const auto [name, cage] = builtInCage();
-    const double diagonal = diagonalOf(cage);
+std::vector<TestScene> makeBuiltInScenes(bool isQuick) {
+    const auto [name, cage] = readBuiltInCage();
+    const double diagonal = computeDiagonal(cage);
     // The shortest wave is about eight edges of a mesh of a million triangles long; a quick run has a sixteenth of
     // them.
     const double coarser = isQuick ? 4 : 1;
     const HeightMap smooth =
-        painted(cage, isQuick ? 512 : 2048, 0.003 * coarser * diagonal, Waves(24, 0.01 * coarser * diagonal));
+        paintMap(cage, isQuick ? 512 : 2048, 0.003 * coarser * diagonal, Waves(24, 0.01 * coarser * diagonal));
     std::vector<float> plates;
-    for (const float wave : smooth.texels) plates.push_back(crispOf(wave));
+    for (const float wave : smooth.texels) plates.push_back(makePlate(wave));
     const HeightMap crisp =
         makeHeightMap(smooth.width, smooth.height, std::move(plates), 0, 0.5 * smooth.scale, smooth.wrap);
     return {{name + ", smooth noise", cage, {}, smooth, {}}, {name + ", crisp plates", cage, {}, crisp, {}}};

@@ -44,30 +44,31 @@ details { margin: .8rem 0; } summary { cursor: pointer; color: var(--soft); }
 )css";
 }
 
-std::string assumptions() {
+std::string describeAssumptions() {
     return R"html(<ul class="words">
-<li><b>Reference.</b> The displaced surface itself, with the scene's whole map, at four times the triangles of the mesh of a
-million. Distances go both ways, from samples of one surface to the nearest point of the other; RMS is the root of the mean
-of both mean squares. A contestant is as small as it can be with a measured RMS distance within the tolerance.</li>
-<li><b>Cage and map.</b> Resident is everything that the device holds of the surface: patches, trees, owners, refined points,
-texture coordinates, and the map with all its mips. Three things are saved at: the depth of refinement around extraordinary
-vertices, the size of the map, and its format; the device holds and draws all of them. Maps of another size are fitted by least
-squares, as a baker fits them, while the vertices of dense meshes lie on the surface, as exporters put them: vertices fitted
-likewise would come nearer than theirs do. On disk: the cage as OBJ text, and the map without mips.
-Few bytes come first: the smallest map that meets a tolerance can ask for more triangles than the dense mesh has, and times and
-reads are those of its own rate.</li>
-<li><b>Dense mesh.</b> Each distinct sample once, again where texture coordinates part. Raw: position, normal and texture
-coordinates as 32-bit floats, 32 bytes a vertex, and 32-bit indices. Quantised: 16-bit positions, 8-bit octahedral normals
-and 16-bit texture coordinates, 12 bytes a vertex, triangles and vertices in the order that caches like. Simplified by
-meshoptimizer in steps of a square root of two. Draco at its encoder's own speed, normals 8 bits, texture coordinates 12.</li>
-<li><b>Read a frame, with all caches.</b> Every resident byte once. Diced triangles are written to memory and read again.</li>
-<li><b>Read a frame, without caches.</b> A dense mesh: 32 bytes for every call of the vertex shader that the device counted
-(three a triangle where nothing was counted), and its indices. A surface: for every evaluation the records of face and patch
-(32 bytes), two words of the tree, sixteen points with their numbers of 16 bits (288), as many texture points (160), and twelve
-texels of the map, a word of 4 bytes each; of BC4 a block of 8 bytes each.</li>
-<li><b>Uploaded for a pose.</b> The cage's points, 12 bytes each, against positions and normals of the dense mesh.</li>
-<li><b>Times.</b> Rounds draw every contestant once, so that a slow spell of the machine hits all alike; the first round is
-not counted. Median, and the 5th to 95th percentile. No shadows; four samples a pixel; the camera turns around the object.</li>
+<li><b>Reference.</b> The displaced surface itself, with the whole map of the scene, at four times the triangles of the mesh of a
+million. Distances are measured both ways, from samples of one surface to the nearest point of the other; RMS is the root of the
+mean of both mean squares. Each method is made as small as it can be with a measured RMS distance within the tolerance.</li>
+<li><b>Cage and map.</b> Resident bytes are everything that the device holds of the surface: patches, trees, owners, refined
+points, texture coordinates, and the map with all its mip levels. Three things are made smaller: the depth of refinement around
+extraordinary vertices, the size of the map, and its format; the device holds and draws the smaller ones. Maps of another size are
+fitted by least squares, as a baker fits them. The vertices of dense meshes lie on the surface, as exporters put them: vertices
+fitted in the same way would have a smaller error. On disk: the cage as OBJ text, and the map without mip levels.
+The fewest bytes decide: the smallest map that meets a tolerance can need more triangles than the dense mesh has, and times and
+bytes read are those of its own rate.</li>
+<li><b>Dense mesh.</b> Each distinct sample once, and again where texture coordinates differ. Raw: position, normal and texture
+coordinates as 32-bit floats, 32 bytes per vertex, and 32-bit indices. Quantised: 16-bit positions, 8-bit octahedral normals
+and 16-bit texture coordinates, 12 bytes per vertex, triangles and vertices in an order made for caches. Simplified by
+meshoptimizer in steps of a square root of two. Draco at the speed of its own encoder program, 8 bits for normals, 12 for texture
+coordinates.</li>
+<li><b>Bytes read per frame, cached.</b> Every resident byte once. Diced triangles are written to memory and read again.</li>
+<li><b>Bytes read per frame, uncached.</b> A dense mesh: 32 bytes for every invocation of the vertex shader that the device
+counted (three per triangle where nothing was counted), and its indices. A surface: for every evaluation the records of face and
+patch (32 bytes), two words of the tree, sixteen control points with their indices of 16 bits (288), as many texture points (160),
+and twelve texels of the map, 4 bytes each; of BC4 a block of 8 bytes each.</li>
+<li><b>Bytes uploaded per pose.</b> The points of the cage, 12 bytes each; positions and normals of the dense mesh.</li>
+<li><b>Times.</b> Each round draws every method once, so that a slow moment of the machine affects all of them; the first round is
+not counted. Median, and 5th to 95th percentile. No shadows; four samples per pixel; the camera turns around the object.</li>
 </ul>
 )html";
 }

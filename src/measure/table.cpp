@@ -1,31 +1,25 @@
 #include <algorithm>
 
-#include "measure/parts.h"
+#include "measure/page.h"
 
 namespace relief {
 namespace {
 
-std::string wordsOf(const Value& value) {
-    const Spread spread = spreadOf(value.samples);
-    if (value.unit == "bytes") return humanBytes(std::uint64_t(spread.median));
-    if (value.unit == "ms")
+bool isTime(Unit unit) { return unit == Unit::milliseconds || unit == Unit::microseconds || unit == Unit::nanoseconds; }
+
+std::string formatCell(const Value& value) {
+    const Spread spread = computeSpread(value.samples);
+    const Unit unit = describe(value.metric).unit;
+    if (unit == Unit::bytes) return humanBytes(std::uint64_t(spread.median));
+    if (unit == Unit::milliseconds)
         return value.samples.size() > 1 ? fmt::format("{:.1f} ({:.1f}-{:.1f})", spread.median, spread.p5, spread.p95)
                                         : fmt::format("{:.1f}", spread.median);
     if (spread.median >= 1e4) return fmt::format("{:.0f}", spread.median);
     return fmt::format("{:.4g}", spread.median);
 }
 
-/// Names of the values of rows that stand below each other, in order of appearance.
-std::vector<std::string> columnsOf(std::span<const Row> rows) {
-    std::vector<std::string> names;
-    for (const Row& row : rows)
-        for (const Value& value : row.values)
-            if (std::ranges::find(names, value.name) == names.end()) names.push_back(value.name);
-    return names;
-}
-
-/// Columns as wide as their widest cell.
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
+/// Columns as wide as their widest cell; all but the first are flush right.
+std::string alignColumns(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> widths;
     for (const auto& line : lines) {
         widths.resize(std::max(widths.size(), line.size()));
@@ -41,40 +35,50 @@ std::string aligned(const std::vector<std::vector<std::string>>& lines) {
     return text;
 }
 
-std::string tableOfRows(std::span<const Row> rows) {
-    const std::vector<std::string> columns = columnsOf(rows);
-    std::vector<std::vector<std::string>> lines{{rows.front().axis, "contestant"}};
-    for (const std::string& name : columns) {
-        const auto row = std::ranges::find_if(rows, [&](const Row& r) { return r.find(name) != nullptr; });
-        const std::string& unit = row->find(name)->unit;
-        const bool isTime = unit == "ms" || unit == "ns" || unit == "us";
-        lines[0].push_back(isTime ? fmt::format("{}, {}", name, unit) : name);
+std::string makeTextTable(std::span<const Row* const> rows) {
+    const std::vector<Metric> columns = listMetrics(rows);
+    std::vector<std::vector<std::string>> lines{{toWord(rows.front()->axis), "method"}};
+    for (const Metric metric : columns) {
+        const MetricInfo& info = describe(metric);
+        lines[0].push_back(isTime(info.unit) ? fmt::format("{}, {}", info.name, toWord(info.unit)) : info.name);
     }
-    for (const Row& row : rows) {
-        std::vector<std::string> line{row.axis.empty() ? "" : fmt::format("{:g}", row.at), row.contestant};
-        for (const std::string& name : columns)
-            line.push_back(row.find(name) != nullptr ? wordsOf(*row.find(name)) : "");
+    for (const Row* row : rows) {
+        std::vector<std::string> line{row->axis == Axis::none ? "" : fmt::format("{:g}", row->at), toWord(row->method)};
+        for (const Metric metric : columns)
+            line.push_back(row->find(metric) != nullptr ? formatCell(*row->find(metric)) : "");
         lines.push_back(line);
     }
-    return aligned(lines);
+    return alignColumns(lines);
 }
 
 } // namespace
 
-std::string tableOf(const Results& results) {
+std::string toTable(const Results& results, std::span<const Goal> goals) {
     std::string text;
     for (const auto* part : {&results.program, &results.machine, &results.device, &results.settings})
         for (const auto& [key, value] : *part) text += fmt::format("{:28} {}\n", key, value);
-    for (std::size_t first = 0, end = 0; first < results.rows.size(); first = end) {
-        const Row& like = results.rows[first];
-        while (end < results.rows.size() && results.rows[end].suite == like.suite &&
-               results.rows[end].scene == like.scene && results.rows[end].axis == like.axis)
-            ++end;
-        text += fmt::format("\n{}: {}\n", like.suite, like.scene);
-        text += tableOfRows(std::span(results.rows).subspan(first, end - first));
+
+    // Neighbouring rows of one suite, scene and axis share a table.
+    std::vector<const Row*> rows;
+    for (std::size_t i = 0; i < results.rows.size(); ++i) {
+        const Row &row = results.rows[i], &next = results.rows[std::min(i + 1, results.rows.size() - 1)];
+        rows.push_back(&row);
+        const bool isLast =
+            &row == &next || next.suite != row.suite || next.scene != row.scene || next.axis != row.axis;
+        if (!isLast) continue;
+        text += fmt::format("\n{}: {}\n{}", toWord(row.suite), row.scene, makeTextTable(rows));
+        rows.clear();
     }
+
+    // Notes and goals, a line each.
     if (!results.notes.empty()) text += '\n';
     for (const std::string& note : results.notes) text += "note: " + note + '\n';
+    const std::vector<GoalResult> evaluated = evaluateGoals(goals, results);
+    if (!evaluated.empty()) text += '\n';
+    for (const GoalResult& result : evaluated)
+        text += fmt::format("goal {}: {}, wanted {} {}: {} ({})\n", result.isMet() ? "met" : "missed",
+                            formatGoal(result.goal, result.found), result.goal.isAtLeast ? "at least" : "at most",
+                            formatGoal(result.goal, result.goal.value), result.goal.name, result.scene);
     return text;
 }
 

@@ -5,9 +5,20 @@
 
 namespace relief {
 
-/// What a mesh costs as floats: position, normal and texture coordinates a vertex, three 32-bit indices a triangle.
-constexpr std::uint64_t denseBytes(std::uint64_t vertexCount, std::uint64_t triangleCount) {
-    return 32 * vertexCount + 12 * triangleCount;
+/// Bytes of each part of a triangle mesh in memory.
+struct DenseLayout {
+    std::uint32_t positionBytes, normalBytes, texCoordBytes; ///< per vertex; 0 where the layout has no such part
+    std::uint32_t indexBytes;                                ///< per index; three indices per triangle
+
+    [[nodiscard]] constexpr std::uint32_t vertexBytes() const { return positionBytes + normalBytes + texCoordBytes; }
+};
+/// Positions, normals and texture coordinates as 32-bit floats, 32-bit indices.
+inline constexpr DenseLayout kRawLayout{12, 12, 8, 4};
+
+/// Bytes of a mesh of that many vertices and triangles in a layout.
+constexpr std::uint64_t denseBytes(std::uint64_t vertexCount, std::uint64_t triangleCount,
+                                   const DenseLayout& layout = kRawLayout) {
+    return layout.vertexBytes() * vertexCount + 3 * layout.indexBytes * triangleCount;
 }
 
 /// Triangles with one normal and one texture coordinate a vertex.
