@@ -3,7 +3,9 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/object_options.h"
 #include "app/output.h"
+#include "app/picture_options.h"
 #include "measure/measure.h"
 
 namespace relief::app {
@@ -11,7 +13,7 @@ namespace {
 
 struct BenchArgs {
     std::vector<std::string> suites;
-    SurfaceArgs surface; ///< the cage and map to measure instead of the built-in ones
+    ObjectDesc object; ///< the cage and map to measure instead of the built-in ones
     std::string json, csv, report, from, device;
     std::vector<std::string> compared;
     double tolerance = 0.1;
@@ -52,16 +54,16 @@ int compare(const BenchArgs& args) {
 
 /// The user's own cage and map, or those that come with the program.
 std::vector<Subject> subjectsOf(const BenchArgs& args) {
-    if (args.surface.cage.empty()) return builtInSubjects(args.isQuick);
-    Loaded loaded = load(args.surface, {.isQuiet = args.isQuiet});
+    if (args.object.cage.empty()) return builtInSubjects(args.isQuick);
+    LoadedObject loaded = load(args.object, CageState::posed, makeWarn(args.isQuiet));
     if (loaded.dense)
-        fail(Failure::usage, "{}: only a subdivision surface is measured; name its --scheme", args.surface.cage);
-    const std::string name = std::filesystem::path(args.surface.cage).stem().string();
+        fail(Failure::usage, "{}: only a subdivision surface is measured; name its --scheme", args.object.cage);
+    const std::string name = std::filesystem::path(args.object.cage).stem().string();
     return {{name, std::move(loaded.cage), loaded.options, std::move(*loaded.height)}};
 }
 
 void checkUsage(const BenchArgs& args) {
-    if (args.surface.cage.empty() != args.surface.height.empty())
+    if (args.object.cage.empty() != args.object.height.path.empty())
         fail(Failure::usage, "--cage and --height go together: displacement is what is measured");
     if (!args.from.empty() && !args.suites.empty())
         fail(Failure::usage, "--from has results already: it measures no suite");
@@ -71,7 +73,7 @@ int bench(BenchArgs args) {
     if (!args.compared.empty()) return compare(args);
     checkUsage(args);
     for (const std::string& path : {args.json, args.csv, args.report})
-        if (!path.empty()) checkOutput(path, {args.from, args.surface.cage, args.surface.height});
+        if (!path.empty()) checkOutput(path, {args.from, args.object.cage, args.object.height.path});
     if (args.suites.empty()) args.suites = suiteNames();
     const Results results = !args.from.empty()
                                 ? readResults(args.from)
@@ -113,8 +115,8 @@ Run addBench(CLI::App& app) {
         ->check(CLI::IsMember(suiteNames()))
         ->option_text("SUITE...");
     app.add_flag("--quick", args->isQuick, "small scenes, few rounds: half a minute, for a first look");
-    app.add_option("--cage", args->surface.cage, "a cage of your own (.obj), with its --height")->option_text("CAGE");
-    addSurfaceOptions(app, args->surface);
+    app.add_option("--cage", args->object.cage, "a cage of your own (.obj), with its --height")->option_text("CAGE");
+    addSurfaceOptions(app, args->object);
     addFiles(app, *args);
     addDevice(app, args->device);
     app.add_flag("-q,--quiet", args->isQuiet, "no warnings")->group("output");

@@ -38,10 +38,10 @@ protected:
     }
 };
 
-TEST_F(Empty, saysThatAllPointsLieAtOnePlace) {
+TEST_F(Empty, saysThatAllPointsCoincide) {
     const std::string cage = putCube([](const dvec3&) { return dvec3(1, 2, 3); });
-    expectReason(render(cage), {cage, "at one place (1, 2, 3)"});
-    expectReason(render(cage, "--scheme none"), {"at one place (1, 2, 3)"});
+    expectReason(render(cage), {cage, "coincide at (1, 2, 3)"});
+    expectReason(render(cage, "--scheme none"), {"coincide at (1, 2, 3)"});
     EXPECT_EQ(render(cage, "-q").err, "");
 }
 
@@ -85,7 +85,7 @@ TEST_F(Empty, framesOfAClipAreToldOnceWithTheFirst) {
                                     "scale(x=max(0,1-t), y=max(0,1-t), z=max(0,1-t))", "-o", folder_ / "f.{frame}.png"},
                                    "--size 64,64 --rate 4 --fps 2 --frames 0:5");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    const std::string mark = "frame 2: there is nothing to see: all of its points lie at one place";
+    const std::string mark = "frame 2: there is nothing to see: all of its points coincide";
     EXPECT_TRUE(contains(outcome.err, mark)) << outcome.err;
     const std::size_t first = outcome.err.find("nothing to see");
     EXPECT_EQ(outcome.err.find("nothing to see", first + 1), std::string::npos) << outcome.err;
