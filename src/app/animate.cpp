@@ -194,6 +194,7 @@ int animate(const AnimateArgs& args) {
 Run addAnimate(CLI::App& app) {
     auto args = std::make_shared<AnimateArgs>();
     AnimationArgs& animation = args->animation;
+    // Which frames of what.
     addObject(app, animation.scene.object);
     app.add_option("-o,--output", args->target,
                    "pictures 'frame.{frame:4}.png' or .exr, numbered with at least 4 digits; a clip .mp4 .webm .gif "
@@ -212,6 +213,7 @@ Run addAnimate(CLI::App& app) {
         ->option_text("N")
         ->group("camera");
     app.add_flag("--resume", args->resumes, "skip frames whose pictures exist")->group("output");
+    // What each frame shows.
     addPicture(app, animation.scene, animation.picture);
     addOutput(app, args->output);
     app.footer("Frame k is the pose at k / fps seconds, the same bits whichever frames are drawn with it.\n"

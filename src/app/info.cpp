@@ -30,6 +30,7 @@ json describeCage(const std::string& path, const std::optional<Distance>& weld, 
     const Cage cage = weldCage(readCage(path, warn), weld);
     checkTexCoords(cage, {}, warn);
     const CageSummary s = summarize(cage);
+    // Named parts apart from the counts, which are of the whole cage.
     json parts = json::array();
     for (const CagePart& part : cage.parts)
         parts.push_back({{"name", part.name}, {"material", part.material}, {"faces", part.faceCount}});
@@ -160,14 +161,14 @@ bool isCage(const std::string& path) {
     return extension == ".obj" || extension == ".gltf" || extension == ".glb";
 }
 
-std::string toText(const json& value) {
+std::string formatValue(const json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float()) // far from the origin six digits do not separate positions
         return fmt::format("{:.{}g}", value.get<double>(), std::abs(value.get<double>()) < 1e5 ? 6 : 12);
     if (!value.is_structured()) return value.dump();
     std::string joined;
     for (const auto& [key, item] : value.items())
-        joined += (joined.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + toText(item);
+        joined += (joined.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + formatValue(item);
     return value.is_array() ? "(" + joined + ")" : joined;
 }
 
@@ -191,7 +192,7 @@ void print(const json& object) {
         else if (key == "limits")
             for (const json& limit : value) printRow(limit == value.front() ? key : "", limit.get<std::string>());
         else
-            printRow(key, toText(value));
+            printRow(key, formatValue(value));
     }
 }
 

@@ -13,6 +13,7 @@
 
 #include "app/command_line.h"
 #include "app/commands.h"
+#include "app/help.h"
 #include "app/memory.h"
 #include "app/output.h"
 
@@ -43,11 +44,13 @@ int fault(Failure failure, const std::string& line) {
 
 int run(std::vector<std::string> words) {
     CLI::App app("Renders, animates, exports, certifies and measures displaced subdivision surfaces.", "relief");
+    app.formatter(std::make_shared<app::HelpFormatter>());
     app.set_version_flag("--version", "relief 0.1.0");
     app.require_subcommand(1);
     app.footer("exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 reading or writing failed,\n"
                "            5 no device or out of memory, 6 a check failed, 130 interrupted\n"
                "relief VERB --help explains each verb.");
+    // Each verb adds its options; the one that is named leaves what to run.
     app::Run chosen;
     std::vector<std::string> verbs;
     for (const Command& command : kCommands) {

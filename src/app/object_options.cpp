@@ -46,6 +46,7 @@ void addHeights(CLI::App& app, HeightDesc& height) {
 
 void addMotion(CLI::App& app, MotionDesc& motion) {
     const char* group = "pose";
+    // Where positions come from: a cache or a skin, and deformers after either.
     CLI::Option* cache =
         app.add_option("--cache", motion.cachePath,
                        "point cache with positions of the cage: .pc2 or .mdd, or a sequence 'name.{frame:4}.obj'");
@@ -65,6 +66,7 @@ void addMotion(CLI::App& app, MotionDesc& motion) {
            app.add_option("--deform", motion.deformers,
                           "deformers over the time t in seconds, such as \"twist(axis=y, angle=90*sin(t))\"; relief "
                           "animate --help lists them"));
+    // How times are read.
     listIn(group, "HOW",
            addEnum(app, "--interpolation", motion.cache.interpolation, kInterpolations,
                    "positions between the keys of a cache"));

@@ -107,6 +107,7 @@ void addNormal(CLI::App& app, NormalKind& normal) {
 
 void addCamera(CLI::App& app, CameraOptions& camera, ivec2& size) {
     const char* group = "camera";
+    // The picture, and from which side the object is seen.
     listIn(group, "W,H",
            addVector<ivec2>(app, "--size", size,
                             fmt::format("width and height of the picture in pixels (default: {},{})", size.x, size.y))
@@ -120,6 +121,7 @@ void addCamera(CLI::App& app, CameraOptions& camera, ivec2& size) {
            app.add_option("--elevation", camera.elevation,
                           fmt::format("degrees above the horizon, -90..90 (default: {})", camera.elevation))
                ->check(numberIn(-90, 90)));
+    // What replaces the framing of the object.
     listIn(group, "D",
            app.add_option("--distance", camera.distance,
                           "distance in cage units from the point looked at (default: the object fills the picture)")

@@ -35,6 +35,7 @@ struct Drawn {
 void report(const RenderArgs& args, const Drawn& drawn) {
     const FrameStats& stats = drawn.picture.stats;
     if (args.output.isJson) {
+        // Programs read these names: relief bench does.
         printJson({{"picture", args.target},
                    {"device", drawn.device},
                    {"triangles", stats.triangleCount},
@@ -59,6 +60,7 @@ void report(const RenderArgs& args, const Drawn& drawn) {
                    {"light_ms", stats.lightMs},
                    {"frame_ms", stats.wallMs}});
     } else if (!args.output.isQuiet) {
+        // One line for people, and a second one with the time of every step.
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
                                  drawn.device);
         if (args.output.isVerbose)

@@ -63,7 +63,7 @@ TEST_F(Empty, saysThatASheetIsSeenFromItsEdge) {
     expectReason(render(cagePath("plane"), "--azimuth 0 --elevation 0"), {"edge"});
 }
 
-TEST_F(Empty, saysThatHeightsReachTooFar) {
+TEST_F(Empty, saysThatHeightsAreTooLarge) {
     writeImage(folder_ / "waves.exr", sineImage(32, 2), SampleType::real);
     const Outcome outcome = render(cagePath("torus"), "--scale 1e30 --height " + folder_ / "waves.exr");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
@@ -71,7 +71,7 @@ TEST_F(Empty, saysThatHeightsReachTooFar) {
     EXPECT_TRUE(contains(outcome.err, "lower --scale")) << outcome.err;
 }
 
-TEST_F(Empty, isNotSaidOfPictures) {
+TEST_F(Empty, isNotReportedWhereSomethingIsSeen) {
     for (const char* name : {"cube", "torus", "plane"})
         EXPECT_FALSE(contains(render(cagePath(name)).err, "warning")) << name;
     for (const char* angle : {"30", "-30"}) // cubes of one pixel and some
@@ -80,7 +80,7 @@ TEST_F(Empty, isNotSaidOfPictures) {
     EXPECT_FALSE(contains(render(putCube([](const dvec3& p) { return 1e-15 * p; })).err, "warning"));
 }
 
-TEST_F(Empty, framesOfAClipAreToldOnceWithTheFirst) {
+TEST_F(Empty, isReportedOncePerClipWithTheFirstFrame) {
     const Outcome outcome = relief({"animate", cagePath("cube"), "--deform",
                                     "scale(x=max(0,1-t), y=max(0,1-t), z=max(0,1-t))", "-o", folder_ / "f.{frame}.png"},
                                    "--size 64,64 --rate 4 --fps 2 --frames 0:5");
