@@ -14,5 +14,6 @@
 #include "mesh/mesh.h"
 #include "model/model.h"
 #include "pose/pose.h"
+#include "scene/scene.h"
 #include "surface/surface.h"
 #include "triangles/triangles.h"

@@ -90,7 +90,8 @@ struct CacheOptions {
 std::unique_ptr<Animation> readPointCache(const std::string& path, const Cage& cage, const CacheOptions& options,
                                           const Warn& warn = warnOnStderr);
 
-/// Warns where the floats of a point cache are too coarse for a cage whose poses lie around `origin`; `path` is the cache's.
+/// Warns where the floats of a point cache are too coarse for a cage whose poses lie around `origin`; `path` is the
+/// cache's.
 void warnOfCoarseFloats(const std::string& path, const Cage& cage, const dvec3& origin, const Warn& warn);
 
 struct CacheHeader {

@@ -162,8 +162,8 @@ class Binder {
 public:
     Binder(const GltfScene& scene, const std::vector<Source>& sources, const Match& match, const std::string& path)
         : scene_(scene), sources_(sources), match_(match), path_(path) {
-        binding_.rest = coordinatesFor(
-            computeBounds(match_.sources, [&](std::uint32_t source) { return positionOf(source); }));
+        binding_.rest =
+            coordinatesFor(computeBounds(match_.sources, [&](std::uint32_t source) { return positionOf(source); }));
     }
 
     /// Joints, weights and morph offsets; rest is the vertices' own.

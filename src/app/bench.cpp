@@ -3,7 +3,9 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/object_options.h"
 #include "app/output.h"
+#include "app/picture_options.h"
 #include "app/render_process.h"
 #include "measure/measure.h"
 
@@ -12,7 +14,7 @@ namespace {
 
 struct BenchArgs {
     std::vector<std::string> suites;
-    SurfaceArgs surface; ///< the cage and map to measure instead of the built-in ones
+    ObjectDesc object; ///< the cage and map to measure instead of the built-in ones
     std::string json, csv, report, from, goals, device;
     std::vector<std::string> compared;
     double tolerance = 0.1;
@@ -56,11 +58,11 @@ int compare(const BenchArgs& args) {
 
 /// The user's own cage and map, or the scenes that are built in.
 std::vector<TestScene> loadScenes(const BenchArgs& args) {
-    if (args.surface.cage.empty()) return makeBuiltInScenes(args.isQuick);
-    Loaded loaded = load(args.surface, {.isQuiet = args.isQuiet});
+    if (args.object.cage.empty()) return makeBuiltInScenes(args.isQuick);
+    LoadedObject loaded = load(args.object, CageState::posed, makeWarn(args.isQuiet));
     if (loaded.dense)
-        fail(Failure::usage, "{}: only a subdivision surface is measured; name its --scheme", args.surface.cage);
-    const std::string name = std::filesystem::path(args.surface.cage).stem().string();
+        fail(Failure::usage, "{}: only a subdivision surface is measured; name its --scheme", args.object.cage);
+    const std::string name = std::filesystem::path(args.object.cage).stem().string();
     return {
         {name, std::move(loaded.cage), loaded.options, std::move(*loaded.height), std::move(loaded.heightEncoding)}};
 }
@@ -79,7 +81,7 @@ Results measure(const BenchArgs& args) {
 }
 
 void checkUsage(const BenchArgs& args) {
-    if (args.surface.cage.empty() != args.surface.height.empty())
+    if (args.object.cage.empty() != args.object.height.path.empty())
         fail(Failure::usage, "--cage and --height go together: displacement is what is measured");
     if (!args.from.empty() && !args.suites.empty()) fail(Failure::usage, "--from reads results: it measures no suite");
 }
@@ -89,7 +91,7 @@ int bench(const BenchArgs& args) {
     // All that can be wrong is found before anything is measured.
     checkUsage(args);
     for (const std::string& path : {args.json, args.csv, args.report})
-        if (!path.empty()) checkOutput(path, {args.from, args.goals, args.surface.cage, args.surface.height});
+        if (!path.empty()) checkOutput(path, {args.from, args.goals, args.object.cage, args.object.height.path});
     std::vector<Goal> goals;
     if (!args.goals.empty()) goals = parseGoals(readFile(args.goals), args.goals);
 
@@ -135,8 +137,8 @@ Run addBench(CLI::App& app) {
         ->check(CLI::IsMember(suites))
         ->option_text("SUITE...");
     app.add_flag("--quick", args->isQuick, "small scenes, few rounds: half a minute, for a first look");
-    app.add_option("--cage", args->surface.cage, "a cage of your own (.obj), with its --height")->option_text("CAGE");
-    addSurfaceOptions(app, args->surface);
+    app.add_option("--cage", args->object.cage, "a cage of your own (.obj), with its --height")->option_text("CAGE");
+    addSurfaceOptions(app, args->object);
     // Where results go, and how the run behaves.
     addFiles(app, *args);
     addDevice(app, args->device);

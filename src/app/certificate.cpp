@@ -26,9 +26,9 @@ void addBroken(std::vector<std::string>& broken, const PathReport& report) {
 
 // --- JSON
 
-json ofPlace(const SurfacePlace& place) { return {{"face", place.face}, {"u", place.uv.x}, {"v", place.uv.y}}; }
+json makePlaceJson(const SurfacePlace& place) { return {{"face", place.face}, {"u", place.uv.x}, {"v", place.uv.y}}; }
 
-json ofPath(const PathReport& report, const Coordinates& coordinates) {
+json makePathJson(const PathReport& report, const Coordinates& coordinates) {
     const Watertightness& w = report.triangles;
     const dvec3 worst = coordinates.toWorld(w.worstPlace);
     return {{"path", report.path},
@@ -47,54 +47,55 @@ json ofPath(const PathReport& report, const Coordinates& coordinates) {
             {"crack_pixels", report.crackPixels ? json(*report.crackPixels) : json()}};
 }
 
-json ofError(const ErrorSummary& error) {
-    return {{"max", error.max}, {"rms", error.rms}, {"max_at", ofPlace(error.worst)}};
+json makeErrorJson(const ErrorSummary& error) {
+    return {{"max", error.max}, {"rms", error.rms}, {"max_at", makePlaceJson(error.worst)}};
 }
 
-json ofRegion(const RegionErrors& errors) {
+json makeRegionJson(const RegionErrors& errors) {
     return {{"points", errors.count},
             {"points_without_normal", errors.countWithoutNormal},
             {"misplaced_points", errors.countMisplaced},
             {"misturned_normals", errors.countMisturned},
-            {"point", ofError(errors.point)},
-            {"tangents", ofError(errors.tangent)},
-            {"limit_normal_degrees", ofError(errors.limitNormal)},
-            {"displaced_normal_degrees", ofError(errors.normal)}};
+            {"point", makeErrorJson(errors.point)},
+            {"tangents", makeErrorJson(errors.tangent)},
+            {"limit_normal_degrees", makeErrorJson(errors.limitNormal)},
+            {"displaced_normal_degrees", makeErrorJson(errors.normal)}};
 }
 
-json ofCorners(const CornerReport& corners) {
-    return {{"count", corners.count}, {"normal_turn_max_degrees", corners.max}, {"max_at", ofPlace(corners.worst)}};
+json makeCornersJson(const CornerReport& corners) {
+    return {
+        {"count", corners.count}, {"normal_turn_max_degrees", corners.max}, {"max_at", makePlaceJson(corners.worst)}};
 }
 
-json ofCurvature(const CurvatureReport& report) {
+json makeCurvatureJson(const CurvatureReport& report) {
     return {{"points", report.count},
             {"points_without_curvature", report.countWithoutCurvature},
             {"min_one_plus_h_kappa", report.lowestFactor},
-            {"min_at", ofPlace(report.lowestAt)},
+            {"min_at", makePlaceJson(report.lowestAt)},
             {"area", report.area},
             {"folded_area", report.foldedArea},
             {"folded_fraction", report.foldedFraction()},
             {"first_order_normal_max_degrees", report.maxNormalAngle},
-            {"first_order_normal_max_at", ofPlace(report.maxNormalAngleAt)},
+            {"first_order_normal_max_at", makePlaceJson(report.maxNormalAngleAt)},
             {"first_order_normal_mean_degrees", report.meanNormalAngle}};
 }
 
-json ofSeams(const SeamReport& seams, double reach) {
+json makeSeamsJson(const SeamReport& seams, double displacementBound) {
     return {{"edges", seams.seamEdgeCount},
             {"length", seams.length},
             {"disagreement_max", seams.max},
             {"disagreement_mean", seams.mean},
-            {"max_of_reach", reach > 0 ? seams.max / reach : 0},
-            {"max_at", ofPlace(seams.worst)}};
+            {"max_of_displacement_bound", displacementBound > 0 ? seams.max / displacementBound : 0},
+            {"max_at", makePlaceJson(seams.worst)}};
 }
 
-// --- words
+// --- text
 
-std::string words(const SurfacePlace& place) {
+std::string describe(const SurfacePlace& place) {
     return fmt::format("face {} ({:.4g}, {:.4g})", place.face, place.uv.x, place.uv.y);
 }
 
-std::string pathTable(const Certificate& c) {
+std::string makePathTable(const Certificate& c) {
     std::string text = fmt::format("  {:14}{:>12}{:>12}{:>13}{:>11}{:>14}{:>15}\n", "path", "triangles", "open edges",
                                    "T-junctions", "gap (ulp)", "crack pixels", "boundary");
     for (const PathReport& report : c.paths) {
@@ -107,12 +108,12 @@ std::string pathTable(const Certificate& c) {
     return text;
 }
 
-std::string regionTable(const char* title, const RegionErrors& errors) {
+std::string makeRegionTable(const char* title, const RegionErrors& errors) {
     if (errors.count == 0) return "";
     std::string text = fmt::format("  {:28}{:>11}{:>11}   worst at\n",
                                    fmt::format("{}, {} points", title, errors.count), "max", "rms");
     const auto row = [&](const char* name, const ErrorSummary& error) {
-        text += fmt::format("    {:26}{:>11.2e}{:>11.2e}   {}\n", name, error.max, error.rms, words(error.worst));
+        text += fmt::format("    {:26}{:>11.2e}{:>11.2e}   {}\n", name, error.max, error.rms, describe(error.worst));
     };
     row("points / diagonal", errors.point);
     row("tangents / diagonal", errors.tangent);
@@ -121,16 +122,16 @@ std::string regionTable(const char* title, const RegionErrors& errors) {
     return text;
 }
 
-std::string cornerWords(const CornerReport& corners) {
+std::string makeCornerText(const CornerReport& corners) {
     return fmt::format("  normals in {} corners turn by up to {:.3g} degrees more than those beside them, at {}\n",
-                       corners.count, corners.max, words(corners.worst));
+                       corners.count, corners.max, describe(corners.worst));
 }
 
-std::string curvatureWords(const CurvatureReport& r) {
-    std::string text = fmt::format("  least 1 + h kappa is {:.4g}, at {}\n", r.lowestFactor, words(r.lowestAt));
+std::string makeCurvatureText(const CurvatureReport& r) {
+    std::string text = fmt::format("  least 1 + h kappa is {:.4g}, at {}\n", r.lowestFactor, describe(r.lowestAt));
     if (r.foldedArea > 0)
-        text += fmt::format("  The map folds the surface over itself on {:.3g} % of its area: heights reach past the "
-                            "centre of curvature there. Lower --scale, or smooth the cage.\n",
+        text += fmt::format("  The map folds the surface over itself on {:.3g} % of its area: heights exceed "
+                            "the radius of curvature there. Lower --scale, or smooth the cage.\n",
                             100 * r.foldedFraction());
     else
         text += "  No folds: the displaced surface is locally one-to-one.\n";
@@ -139,22 +140,24 @@ std::string curvatureWords(const CurvatureReport& r) {
                               r.maxNormalAngle, r.meanNormalAngle);
 }
 
-/// Heights nearer than this part of the map's reach are the same: those of a float map are not told apart.
+/// Heights that differ by less than this share of the displacement bound count as equal: float maps are rounded.
 constexpr double kSameHeight = 1e-7;
 
-std::string seamWords(const SeamReport& seams, double reach) {
+std::string makeSeamText(const SeamReport& seams, double displacementBound) {
     if (seams.seamEdgeCount == 0) return "  The map has no seams on this cage.\n";
-    if (seams.max <= kSameHeight * reach)
-        return fmt::format("  The two sides of {} seam edges agree.\n", seams.seamEdgeCount);
-    return fmt::format("  The two sides of {} seam edges disagree by up to {:.3g} cage units ({:.3g} % of the map's "
-                       "reach), {:.3g} on average, most at {}; the owner's side is drawn on both.\n",
-                       seams.seamEdgeCount, seams.max, reach > 0 ? 100 * seams.max / reach : 0, seams.mean,
-                       words(seams.worst));
+    if (seams.max <= kSameHeight * displacementBound)
+        return fmt::format("  The two sides of {} seam edges have equal heights.\n", seams.seamEdgeCount);
+    return fmt::format("  The two sides of {} seam edges disagree by up to {:.3g} cage units ({:.3g} % of the "
+                       "displacement bound), {:.3g} on average, most at {}; both sides are drawn with the heights of "
+                       "the edge's owner face.\n",
+                       seams.seamEdgeCount, seams.max, displacementBound > 0 ? 100 * seams.max / displacementBound : 0,
+                       seams.mean, describe(seams.worst));
 }
 
 } // namespace
 
-/// Rounding of a leaf patch's points grows with its magnification; up to the default isolation it is promised away.
+/// Rounding of a leaf patch's points grows with its magnification, which doubles with each level of isolation beyond
+/// the default.
 Promises promisesAt(int isolation) {
     Promises promises;
     promises.tangent = std::ldexp(promises.tangent, std::max(isolation - SurfaceOptions().isolation, 0));
@@ -168,7 +171,7 @@ std::vector<std::string> Certificate::brokenPromises() const {
     const auto check = [&](const ErrorSummary& error, double most, const char* what) {
         if (error.max > most)
             broken.push_back(fmt::format("{} are off by {:.2e} of the diagonal at {}, more than {:.0e}", what,
-                                         error.max, words(error.worst), most));
+                                         error.max, describe(error.worst), most));
     };
     check(frames.regular.point, promises.point, "points");
     check(frames.regular.tangent, promises.tangent, "tangents");
@@ -181,16 +184,16 @@ std::vector<std::string> Certificate::brokenPromises() const {
     checkShare(regular.countMisturned, "displaced normals are off by more than 0.1 degrees");
     if (corners.max > promises.cornerDegrees)
         broken.push_back(fmt::format("the normal at {} is off by {:.3g} degrees from those beside it, more than {}",
-                                     words(corners.worst), corners.max, promises.cornerDegrees));
+                                     describe(corners.worst), corners.max, promises.cornerDegrees));
     return broken;
 }
 
 namespace {
 
-/// Lengths and areas in the world's units.
+/// The certificate with lengths and areas in the world's units.
 Certificate inWorldUnits(Certificate c) {
     const double unit = c.coordinates.unit;
-    c.diagonal *= unit, c.reach *= unit;
+    c.diagonal *= unit, c.displacementBound *= unit;
     c.curvature.area *= unit * unit, c.curvature.foldedArea *= unit * unit;
     if (c.seams) c.seams->length *= unit, c.seams->max *= unit, c.seams->mean *= unit;
     return c;
@@ -200,30 +203,31 @@ Certificate inWorldUnits(Certificate c) {
 
 json toJson(const Certificate& local) {
     const Certificate c = inWorldUnits(local);
-    json all{{"cage", c.cage},
-             {"device", c.device},
-             {"faces", c.faceCount},
-             {"isolation", c.isolation},
-             {"diagonal", c.diagonal},
-             {"paths", json::array()},
-             {"frames", {{"regular", ofRegion(c.frames.regular)}, {"end_caps", ofRegion(c.frames.endCaps)}}},
-             {"corners", ofCorners(c.corners)},
-             {"curvature", ofCurvature(c.curvature)},
-             {"broken_promises", c.brokenPromises()}};
-    for (const PathReport& report : c.paths) all["paths"].push_back(ofPath(report, c.coordinates));
-    if (!c.height.empty()) all["height"] = c.height, all["reach"] = c.reach;
-    if (c.seams) all["seams"] = ofSeams(*c.seams, c.reach);
+    json all{
+        {"cage", c.cage},
+        {"device", c.device},
+        {"faces", c.faceCount},
+        {"isolation", c.isolation},
+        {"diagonal", c.diagonal},
+        {"paths", json::array()},
+        {"frames", {{"regular", makeRegionJson(c.frames.regular)}, {"end_caps", makeRegionJson(c.frames.endCaps)}}},
+        {"corners", makeCornersJson(c.corners)},
+        {"curvature", makeCurvatureJson(c.curvature)},
+        {"broken_promises", c.brokenPromises()}};
+    for (const PathReport& report : c.paths) all["paths"].push_back(makePathJson(report, c.coordinates));
+    if (!c.height.empty()) all["height"] = c.height, all["displacement_bound"] = c.displacementBound;
+    if (c.seams) all["seams"] = makeSeamsJson(*c.seams, c.displacementBound);
     return all;
 }
 
 std::string toText(const Certificate& local) {
     const Certificate c = inWorldUnits(local);
     std::string text = fmt::format("{}{} on {}\n", c.cage, c.height.empty() ? "" : " with " + c.height, c.device);
-    text += "watertight\n" + pathTable(c);
-    text += "exact, against a double-precision reference\n" + regionTable("outside end caps", c.frames.regular) +
-            regionTable("in end caps", c.frames.endCaps) + cornerWords(c.corners);
-    if (!c.height.empty()) text += "one-to-one\n" + curvatureWords(c.curvature);
-    if (c.seams) text += "seams\n" + seamWords(*c.seams, c.reach);
+    text += "watertight\n" + makePathTable(c);
+    text += "exact, against a double-precision reference\n" + makeRegionTable("outside end caps", c.frames.regular) +
+            makeRegionTable("in end caps", c.frames.endCaps) + makeCornerText(c.corners);
+    if (!c.height.empty()) text += "one-to-one\n" + makeCurvatureText(c.curvature);
+    if (c.seams) text += "seams\n" + makeSeamText(*c.seams, c.displacementBound);
     return text;
 }
 

@@ -1,4 +1,4 @@
-// What `relief check` has found out, as JSON and as words.
+// What `relief check` has found, as JSON and as text.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@ namespace relief::app {
 struct PathReport {
     std::string path;
     Watertightness triangles;
-    std::optional<std::uint64_t> crackPixels; ///< over all views; only of surfaces that enclose a volume
+    std::optional<std::uint64_t> crackPixels; ///< pixels that see a crack, all views; only of closed surfaces
 };
 
-/// What is promised of frames outside end caps, over the diagonal of the cage's bounding box, and of normals in
-/// corners.
+/// The largest errors that are promised: of points and tangents outside end caps, as shares of the diagonal of the
+/// cage's bounding box, and of normals in corners.
 struct Promises {
     double point = 1e-6, tangent = 1e-5;
     double wrongShare = 0.01;  ///< of points that are displaced wrongly (SampleError::isMisplaced and isMisturned)
@@ -26,18 +26,20 @@ struct Promises {
 Promises promisesAt(int isolation);
 
 struct Certificate {
-    std::string cage, height, device; ///< height: "" without a map
+    std::string cage, height, device; ///< height: path of the map, or empty
     std::size_t faceCount = 0;
     int isolation = 0;
-    double diagonal = 0, reach = 0; ///< in `coordinates`, as all lengths; largest height of the map
+    double diagonal = 0;          ///< of the cage; in the unit of `coordinates`, as all lengths
+    double displacementBound = 0; ///< largest |h| of the map
     std::vector<PathReport> paths;
     FrameErrors frames;
     CornerReport corners;
     CurvatureReport curvature;
     std::optional<SeamReport> seams; ///< with a map
-    Coordinates coordinates;         ///< what is printed is in the world
+    Coordinates coordinates;         ///< of all lengths and positions; both functions below print them in the world's
 
-    /// One entry for each promise that is broken: "grid: 3 open edges". Folds and seams are the map's, not ours.
+    /// One entry per promise that is broken: "grid: 3 open edges". Folds and seams that disagree come from the map and
+    /// break none.
     [[nodiscard]] std::vector<std::string> brokenPromises() const;
 };
 

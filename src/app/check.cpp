@@ -3,13 +3,15 @@
 
 #include "app/commands.h"
 #include "app/heatmap.h"
+#include "app/object_options.h"
 #include "app/output.h"
+#include "app/picture_options.h"
 
 namespace relief::app {
 namespace {
 
 struct CheckArgs {
-    SurfaceArgs surface;
+    ObjectDesc object;
     TriangleArgs triangles;
     Output output;
     std::size_t pointCount = 200'000;
@@ -17,37 +19,32 @@ struct CheckArgs {
 };
 
 constexpr std::size_t kPointsAtOnce = 1u << 18; // keeps the device's buffers below 40 MB
-constexpr int kPictureSide = 1024;              // of the views, and what --edge-pixels are measured in
+constexpr int kPictureSide = 1024;              // pixels of the views, by which --edge-pixels are measured
 
 /// Azimuth and elevation: along the axes, from both sides.
 constexpr double kViews[][2] = {{0, 0}, {90, 0}, {180, 0}, {270, 0}, {0, 90}, {0, -90}};
 
 // --- triangles
 
-std::vector<std::string> pathsOf(const CheckArgs& args, const DeviceTraits& traits) {
-    if (!args.triangles.path.empty()) return {args.triangles.path};
-    if (traits.hasTessellation && traits.hasTransformFeedback) return {"tessellation", "grid", "dice"};
-    return {"grid", "dice"};
+std::vector<Path> choosePaths(const CheckArgs& args, const DeviceTraits& traits) {
+    return args.triangles.path ? std::vector{*args.triangles.path} : listCapturablePaths(traits);
 }
 
-/// Measures one path after another.
+/// Certifies the triangles of one path after another.
 class PathChecker {
 public:
-    PathChecker(Device& device, const SurfaceModel& model, const Loaded& loaded, const CheckArgs& args)
-        : device_(device), model_(model), args_(args), rater_(device), capturer_(device),
+    PathChecker(Device& device, const SurfaceModel& model, const LoadedObject& object, const CheckArgs& args)
+        : model_(model), args_(args), rater_(device), capturer_(device),
           renderer_(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1}),
-          canSeeCracks_(enclosesVolume(loaded.surface)) {
-        const ReferenceSurface coarse(loaded.cage, {.scheme = loaded.options.scheme, .isolation = 2});
-        points_ = outline(coarse, loaded.heightMap());
-    }
+          canSeeCracks_(enclosesVolume(object.surface)), points_(computeOutline(object)) {}
 
     /// `shift`: how far the crack pictures move every other vertex, cage units.
-    PathReport check(const std::string& path, double shift) {
-        RenderOptions options{triangleOptions(args_.triangles, device_)};
-        options.path = pathOf(path, device_);
+    PathReport check(Path path, double shift) {
+        RenderOptions options{args_.triangles.options};
+        options.path = path;
         options.lighting.castsShadows = false;
         for (const dvec3& p : points_) options.bounds.add(p);
-        PathReport report{.path = path, .triangles = checkTriangles(options)};
+        PathReport report{.path = wordOf(kPaths, path), .triangles = checkTriangles(options)};
         if (canSeeCracks_) report.crackPixels = countCrackPixels(options, shift);
         return report;
     }
@@ -61,16 +58,15 @@ private:
     }
 
     std::uint64_t countCrackPixels(RenderOptions options, double shift) {
-        const dvec3 aslant = glm::normalize(dvec3(3, 4, 5)); // no view looks along it
+        const dvec3 direction = glm::normalize(dvec3(3, 4, 5)); // no view looks along it
         std::uint64_t count = 0;
         for (const auto& [azimuth, elevation] : kViews) {
             options.camera = frameCamera(points_, {.azimuth = azimuth, .elevation = elevation}, 1);
-            count += renderer_.crackPixels(model_, options, vec3(shift * aslant));
+            count += renderer_.crackPixels(model_, options, vec3(shift * direction));
         }
         return count;
     }
 
-    Device& device_;
     const SurfaceModel& model_;
     const CheckArgs& args_;
     EdgeRater rater_;
@@ -95,49 +91,54 @@ std::vector<SampleResult> sampleDevice(Device& device, const SurfaceModel& model
     return results;
 }
 
-/// Frames, curvature, corners and seams from the device's answers; returns the heat map that is asked for.
-std::optional<Picture> checkPoints(Device& device, const SurfaceModel& model, const Loaded& loaded, const CheckArgs& args,
-                                   Certificate& certificate) {
-    const SurfaceSamples samples = sampleEverywhere(loaded.surface, args.pointCount);
-    const NormalKind normal = normalKind(args.triangles.normal);
+/// Fills in frames, curvature, corners and seams from what the device evaluates; returns the heat map if one is asked
+/// for.
+std::optional<Picture> checkPoints(Device& device, const SurfaceModel& model, const LoadedObject& object,
+                                   const CheckArgs& args, Certificate& certificate) {
+    // Points all over the surface against the reference.
+    const SurfaceSamples samples = sampleEverywhere(object.surface, args.pointCount);
+    const NormalKind normal = args.triangles.options.normal;
     const std::vector<SampleResult> results = sampleDevice(device, model, samples.queries, normal);
-    const ReferenceSurface reference(loaded.cage, loaded.options);
+    const ReferenceSurface reference(object.cage, object.options);
     const std::vector<SampleError> errors =
-        sampleErrors({&reference, loaded.heightMap(), normal, certificate.diagonal}, samples.queries, results);
+        sampleErrors({&reference, object.heightMap(), normal, certificate.diagonal}, samples.queries, results);
     certificate.frames = summarizeErrors(samples.queries, errors);
     certificate.curvature = reportCurvature(samples, results);
-    const std::vector<SampleQuery> corners = cornersOf(loaded.surface);
+
+    // Where derivatives vanish, and where the map may disagree with itself.
+    const std::vector<SampleQuery> corners = cornersOf(object.surface);
     certificate.corners = reportCorners(reference, corners, sampleDevice(device, model, corners, normal));
-    if (loaded.height) certificate.seams = reportSeams(loaded.surface, reference, *loaded.height);
+    if (object.height) certificate.seams = reportSeams(object.surface, reference, *object.height);
+
     if (args.heatmap.empty()) return {};
     const Heat heat{samples, results, errors, promisesAt(certificate.isolation)};
-    return drawHeatmap(device, heatMesh(heat, loaded.surface.sideCount));
+    return drawHeatmap(device, heatMesh(heat, object.surface.sideCount));
 }
 
 // --- the command
 
-/// Writes the heat map when all else has gone well.
-Certificate certify(const CheckArgs& args, const Loaded& loaded) {
+/// The heat map is written last, when nothing else has failed.
+Certificate certify(const CheckArgs& args, const LoadedObject& object) {
     Device device({.name = args.device});
-    const SurfaceModel model(
-        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
-    const std::vector<std::string> paths = pathsOf(args, device.traits());
+    const SurfaceModel model = makeSurfaceModel(device, object);
+    const std::vector<Path> paths = choosePaths(args, device.traits());
     Progress progress("checking", 1 + paths.size(), args.output.progress);
 
-    Certificate certificate{.cage = args.surface.cage,
-                            .height = args.surface.height,
+    Certificate certificate{.cage = args.object.cage,
+                            .height = args.object.height.path,
                             .device = device.traits().name,
-                            .faceCount = loaded.surface.faces.size(),
-                            .isolation = loaded.options.isolation,
-                            .diagonal = summarize(loaded.cage).bounds.diagonal() / loaded.coordinates().unit,
-                            .reach = loaded.height ? loaded.height->heightBound() : 0,
-                            .coordinates = loaded.coordinates()};
-    const std::optional<Picture> heatmap = checkPoints(device, model, loaded, args, certificate);
+                            .faceCount = object.surface.faces.size(),
+                            .isolation = object.options.isolation,
+                            .diagonal = summarize(object.cage).bounds.diagonal() / object.coordinates().unit,
+                            .displacementBound = object.height ? object.height->heightBound() : 0,
+                            .coordinates = object.coordinates()};
+    const std::optional<Picture> heatmap = checkPoints(device, model, object, args, certificate);
     progress.advance();
-    // DESIGN: 4 % of a face opens any crack to some pixels.
+
+    // Moving vertices by 4 % of a face's side opens any crack to a width of some pixels.
     const double shift = 0.04 * std::sqrt(certificate.curvature.area / double(certificate.faceCount));
-    PathChecker checker(device, model, loaded, args);
-    for (const std::string& path : paths) {
+    PathChecker checker(device, model, object, args);
+    for (const Path path : paths) {
         certificate.paths.push_back(checker.check(path, shift));
         progress.advance();
     }
@@ -149,19 +150,19 @@ Certificate certify(const CheckArgs& args, const Loaded& loaded) {
 int check(const CheckArgs& args) {
     if (!args.heatmap.empty()) {
         checkHeatmapPath(args.heatmap);
-        checkOutput(args.heatmap, inputsOf(args.surface));
+        checkOutput(args.heatmap, listFiles(args.object));
     }
-    const Loaded loaded = load(args.surface, args.output);
-    if (loaded.dense)
-        fail(Failure::usage, "{}: certificates are for subdivision surfaces; name its --scheme", args.surface.cage);
-    const Certificate certificate = certify(args, loaded);
+    const LoadedObject object = load(args.object, CageState::posed, makeWarn(args.output.isQuiet));
+    if (object.dense)
+        fail(Failure::usage, "{}: certificates are for subdivision surfaces; name its --scheme", args.object.cage);
+    const Certificate certificate = certify(args, object);
     if (args.output.isJson)
         printJson(toJson(certificate));
     else if (!args.output.isQuiet)
         std::cout << toText(certificate);
-    std::cout.flush(); // before the word on stderr
+    std::cout.flush(); // before the line on stderr
     const std::vector<std::string> broken = certificate.brokenPromises();
-    if (!broken.empty()) fail(Failure::check, "{}: {}", args.surface.cage, fmt::join(broken, "; "));
+    if (!broken.empty()) fail(Failure::check, "{}: {}", args.object.cage, fmt::join(broken, "; "));
     return 0;
 }
 
@@ -169,20 +170,23 @@ int check(const CheckArgs& args) {
 
 Run addCheck(CLI::App& app) {
     auto args = std::make_shared<CheckArgs>();
-    addSurface(app, args->surface);
-    addTime(app, args->surface.pose);
-    addPath(app, args->triangles.path, "all that the device has");
-    addTriangles(app, args->triangles);
-    app.add_option("--points", args->pointCount, "points that are compared with the reference, about (200000)")
+    addObject(app, args->object);
+    addTime(app, args->object.motion);
+    addPath(app, args->triangles.path, "all that the device can read back");
+    addTriangles(app, args->triangles.options);
+    app.add_option("--points", args->pointCount,
+                   fmt::format("about how many points are compared with the double-precision reference (default: {})",
+                               args->pointCount))
         ->check(CLI::Range(1, 100'000'000))
         ->option_text("N");
-    app.add_option("--heatmap", args->heatmap, "picture of where errors (orange) and folds (blue) are: .png or .exr")
+    app.add_option("--heatmap", args->heatmap,
+                   "picture to write of where errors (orange) and folds (blue) are: .png or .exr")
         ->option_text("PICTURE");
     addDevice(app, args->device);
     addOutput(app, args->output);
     app.footer(
-        "Ends with 6 when the triangles are not watertight or the frames not exact; folds and seams that disagree\n"
-        "are told, and are the map's.\n"
+        "Ends with exit code 6 when the triangles are not watertight or points and tangents are not exact. Folds, and\n"
+        "heights that differ along the seams of the texture, come from the map: they are reported and change no code.\n"
         "examples:\n"
         "  relief check cage.obj --height map.exr --scale 0.2\n"
         "  relief check cage.obj --path dice --rate 16 --json\n"

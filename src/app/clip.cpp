@@ -16,13 +16,14 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr int kCannotRun = 127; ///< as shells have it
+constexpr int kCannotRun = 127; ///< exit code of shells for a program that cannot be started
 
-/// In the new process, where little else is allowed: `input` becomes its stdin, and ffmpeg takes its place.
+/// Runs in the forked process, where only async-signal-safe calls are allowed: `input` becomes its stdin, and ffmpeg
+/// replaces it.
 [[noreturn]] void runFfmpeg(char* const* arguments, int input, pid_t parent) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL); // it ends with us, however that comes about
+    prctl(PR_SET_PDEATHSIG, SIGKILL); // it ends with this process, however that ends
     if (getppid() != parent) _exit(kCannotRun);
-    setpgid(0, 0); // Ctrl-C on the terminal is ours alone
+    setpgid(0, 0); // Ctrl-C on the terminal goes to this program alone
     sigset_t none; // an interrupt is blocked here, where a thread waits for it: not in the child
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -32,7 +33,7 @@ constexpr int kCannotRun = 127; ///< as shells have it
     _exit(kCannotRun);
 }
 
-/// Starts ffmpeg without a word on the terminal.
+/// Starts ffmpeg so that it prints nothing on the terminal.
 pid_t start(const Words& arguments, int input) {
     Words words{"ffmpeg", "-nostdin", "-hide_banner", "-loglevel", "quiet", "-y", "-xerror"};
     words.insert(words.end(), arguments.begin(), arguments.end());
@@ -53,8 +54,8 @@ int exitCodeOf(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// How each format is encoded: the file's name does not say. Players want even sides and 4:2:0 of .mp4; a .gif gets a
-/// palette of its own colors.
+/// The options of each format, because the temporary file's name does not tell ffmpeg. Players expect even sides and
+/// 4:2:0 in an .mp4; a .gif gets a palette of its own colors.
 Words encoding(const std::string& extension) {
     if (extension == ".mp4")
         return {"-f",   "mp4",     "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2",

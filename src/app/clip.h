@@ -1,4 +1,4 @@
-// Moving pictures through ffmpeg, which is found when it is needed.
+// Clips, encoded by ffmpeg, which is looked for when it is needed.
 #pragma once
 
 #include <cstdio>
@@ -10,30 +10,30 @@
 
 namespace relief::app {
 
-/// .mp4, .webm, .gif or .webp.
+/// Whether `path` names a clip: .mp4, .webm, .gif or .webp.
 bool isClipPath(const std::string& path);
 
-/// Throws Failure::file unless ffmpeg can be started.
+/// Throws Failure::file unless ffmpeg is installed and runs.
 void checkClipWriter();
 
 struct ClipDesc {
-    std::string path;      ///< what it will be called: its extension names the format
-    std::string temporary; ///< where it is written
+    std::string path;      ///< of the finished clip: its extension names the format
+    std::string temporary; ///< the file that is written
     int width = 0, height = 0;
-    double fps = 24;
+    double fps = 0; ///< frames per second
 };
 
-/// Frames of one size, handed to an ffmpeg that runs beside. Throws Failure::file when it ends before its time.
+/// Passes frames of one size to an ffmpeg process. Throws Failure::file when that ends before finish().
 class ClipWriter {
 public:
     explicit ClipWriter(const ClipDesc& desc);
-    ~ClipWriter(); ///< ends ffmpeg when finish() was not reached
+    ~ClipWriter(); ///< ends ffmpeg unless finish() was called
     ClipWriter(const ClipWriter&) = delete;
     ClipWriter& operator=(const ClipWriter&) = delete;
 
-    /// 3 channels of 0..1, sRGB-encoded.
+    /// Adds a frame of 3 channels 0..1, sRGB-encoded.
     void write(const Image& frame);
-    /// Waits for the file to be whole.
+    /// Waits until ffmpeg has written the file.
     void finish();
 
 private:

@@ -3,11 +3,11 @@
 
 #include <functional>
 
-#include "app/options.h"
+#include <CLI/CLI.hpp>
 
 namespace relief::app {
 
-/// Runs the parsed command; returns the exit code. What cannot work is said as early as it can be known: first words
+/// Runs the parsed command; returns the exit code. Mistakes are reported as early as they can be known: first options
 /// that make no sense, then an output that cannot be written, then inputs that cannot be read.
 using Run = std::function<int()>;
 

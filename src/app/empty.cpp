@@ -27,15 +27,14 @@ Extent extentOf(const EmptyView& view) {
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
     const dvec3 helper = std::abs(forward.y) > 0.9999 ? dvec3(0, 0, 1) : dvec3(0, 1, 0);
     const dvec3 right = glm::normalize(glm::cross(forward, helper)), down = glm::cross(forward, right);
-    const double pixels = view.height / (2 * std::tan(glm::radians(camera.fieldOfView) / 2));
+    const double pixels = view.size.y / (2 * std::tan(glm::radians(camera.fieldOfView) / 2));
     Extent extent;
     for (const dvec3& p : view.points) {
         const dvec3 d = p - camera.eye;
         const double depth = glm::dot(d, forward);
         extent.nearest = std::min(extent.nearest, depth), extent.farthest = std::max(extent.farthest, depth);
         if (depth <= 0) continue;
-        const dvec2 at =
-            dvec2(glm::dot(d, right), glm::dot(d, down)) * (pixels / depth) + 0.5 * dvec2(view.width, view.height);
+        const dvec2 at = dvec2(glm::dot(d, right), glm::dot(d, down)) * (pixels / depth) + 0.5 * dvec2(view.size);
         extent.lower = glm::min(extent.lower, at), extent.upper = glm::max(extent.upper, at);
     }
     return extent;
@@ -62,11 +61,11 @@ std::string faultOf(const EmptyView& view) {
     const double rounding = kNoWidth * std::max(glm::length(bounds.lower), glm::length(bounds.upper));
     if (size <= rounding) {
         const dvec3 at = view.coordinates.toWorld(bounds.center());
-        return fmt::format("all of its points lie at one place ({:.9g}, {:.9g}, {:.9g})", at.x, at.y, at.z);
+        return fmt::format("all of its points coincide at ({:.9g}, {:.9g}, {:.9g})", at.x, at.y, at.z);
     }
     if (relativeWidth(view.points, size) < kNoWidth) return "all of its points lie on one line, so it has no area";
     if (size > kFarthestDrawn)
-        return fmt::format("it reaches over {:.3g} cage units, too far for 32-bit floats; make its heights smaller",
+        return fmt::format("it extends over {:.3g} cage units, too far for 32-bit floats; make its heights smaller",
                            size * view.coordinates.unit);
     return "";
 }
@@ -77,7 +76,7 @@ std::string faultOfCamera(const EmptyView& view) {
     if (!extent.isInFront()) return "it lies behind the camera; see --look-at and --distance";
     const dvec2 size = extent.size();
     const bool isOutside =
-        extent.upper.x < 0 || extent.upper.y < 0 || extent.lower.x > view.width || extent.lower.y > view.height;
+        extent.upper.x < 0 || extent.upper.y < 0 || extent.lower.x > view.size.x || extent.lower.y > view.size.y;
     if (isOutside) return "it lies outside of the picture; see --look-at and --distance";
     if (std::max(size.x, size.y) < 2)
         return fmt::format("it is {:.2g} by {:.2g} pixels large from there; see --distance", size.x, size.y);

@@ -6,21 +6,23 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/object_options.h"
 #include "app/output.h"
+#include "app/picture_options.h"
+#include "base/clock.h"
 
 namespace relief::app {
 namespace {
 
 struct ExportArgs {
-    SurfaceArgs surface;
-    TriangleArgs triangles{.path = "dice"};
-    CameraArgs camera;
+    SceneDesc scene; ///< its camera is what --edge-pixels are measured by
+    TriangleOptions triangles{.path = Path::dice};
     Output output;
-    std::string target, device, heightSpace = "absolute";
+    std::string target, device;
     bool weldsPositions = false;
 };
 
-/// A mesh and what is told of it, when everything that made it is gone.
+/// A mesh and what is reported of it, after everything that made it is freed.
 struct Exported {
     DenseMesh mesh;
     std::string device;
@@ -28,39 +30,42 @@ struct Exported {
     double loadSeconds = 0, surfaceSeconds = 0, rateMs = 0, diceMs = 0, writeSeconds = 0;
 };
 
-EdgeRates ratesOf(Device& device, const SurfaceModel& model, const Loaded& loaded, const ExportArgs& args, double& rateMs) {
+EdgeRates computeRates(Device& device, const SurfaceModel& model, const LoadedObject& object, const ExportArgs& args,
+                       double& rateMs) {
     View view;
-    CameraArgs camera = args.camera;
-    enter(loaded.coordinates(), camera);
-    if (!args.triangles.rate) view = viewOf(cameraOf(camera, outlineOf(loaded)), camera.size[1]);
-    return EdgeRater(device).rates(model, triangleOptions(args.triangles, device), view, &rateMs);
+    if (!args.triangles.rate) // only lengths on screen need a camera
+        view = viewOf(makeCamera(args.scene, object.coordinates(), computeOutline(object)), args.scene.size.y);
+    return EdgeRater(device).rates(model, args.triangles, view, &rateMs);
 }
 
-/// Whatever made the mesh gives its memory back before the mesh is written.
+/// Whatever made the mesh is freed before the mesh is written.
 Exported dice(const ExportArgs& args) {
     Progress progress("dicing", 4, args.output.progress);
-    const Loaded loaded = load(args.surface, args.output);
-    if (loaded.dense)
-        fail(Failure::usage, "{}: only a subdivision surface has triangles to make; name its --scheme",
-             args.surface.cage);
-    progress.advance();
-    Device device({.name = args.device});
-    SurfaceModel model(device,
-                {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
-    const std::unique_ptr<Poser> poser = stretchHeights(device, &model, loaded, args.heightSpace);
+    const ObjectDesc& desc = args.scene.object;
+    const LoadedObject object = load(desc, CageState::posed, makeWarn(args.output.isQuiet));
+    if (object.dense)
+        fail(Failure::usage, "{}: only a subdivision surface can be diced into triangles; name its --scheme",
+             desc.cage);
     progress.advance();
 
+    Device device({.name = args.device});
+    SurfaceModel model = makeSurfaceModel(device, object);
+    stretchHeights(device, model, object, desc.height.space);
+    progress.advance();
+
+    // The size of the mesh is known once it is diced, and checked before it is read back.
     Exported exported{
-        .device = device.traits().name, .loadSeconds = loaded.loadSeconds, .surfaceSeconds = loaded.surfaceSeconds};
-    const EdgeRates rates = ratesOf(device, model, loaded, args, exported.rateMs);
-    const bool hasTexCoords = loaded.cage.hasTexCoords();
+        .device = device.traits().name, .loadSeconds = object.loadSeconds, .surfaceSeconds = object.surfaceSeconds};
+    const EdgeRates rates = computeRates(device, model, object, args, exported.rateMs);
+    const bool hasTexCoords = object.cage.hasTexCoords();
     const DicedMesh diced = Dicer(device).dice(
         model, rates,
-        {.normal = normalKind(args.triangles.normal), .wantsTexCoords = hasTexCoords, .memory = args.triangles.memory});
+        {.normal = args.triangles.normal, .wantsTexCoords = hasTexCoords, .memory = args.triangles.memory});
     progress.advance();
     checkMeshSize(args.target, diced.vertexCount, diced.triangleCount, hasTexCoords);
+
     exported.mesh = readBack(device, diced);
-    exported.mesh.coordinates = loaded.coordinates();
+    exported.mesh.coordinates = object.coordinates();
     exported.sampleCount = diced.sampleCount;
     exported.diceMs = diced.milliseconds;
     progress.advance();
@@ -96,7 +101,7 @@ void report(const ExportArgs& args, const Exported& exported) {
 
 int exportMesh(const ExportArgs& args) {
     checkMeshPath(args.target);
-    checkOutput(args.target, inputsOf(args.surface));
+    checkOutput(args.target, listFiles(args.scene));
     Exported exported = dice(args);
     // OBJ has each position once already, and texture coordinates beside it.
     if (args.weldsPositions && lowerExtension(args.target) != ".obj") exported.mesh = weldPositions(exported.mesh);
@@ -112,17 +117,18 @@ int exportMesh(const ExportArgs& args) {
 
 Run addExport(CLI::App& app) {
     auto args = std::make_shared<ExportArgs>();
-    addSurface(app, args->surface);
-    addTime(app, args->surface.pose);
+    addObject(app, args->scene.object);
+    addTime(app, args->scene.object.motion);
     app.add_option("-o,--output", args->target, "mesh to write: .ply, .obj or .glb")->required()->option_text("MESH");
     app.add_flag("--weld-positions", args->weldsPositions,
-                 "one vertex a position, without texture coordinates: closed for a slicer (.obj always is)");
+                 "write each position once, without texture coordinates, so that the mesh is closed for a slicer "
+                 "(.obj always has each position once)");
     addTriangles(app, args->triangles);
-    addCamera(app, args->camera);
-    addHeightSpace(app, args->heightSpace);
+    addCamera(app, args->scene.camera, args->scene.size);
+    addHeightSpace(app, args->scene.object.height.space);
     addDevice(app, args->device);
     addOutput(app, args->output);
-    app.footer("the camera is what --edge-pixels are seen by\n"
+    app.footer("The camera is what --edge-pixels are measured by.\n"
                "examples:\n"
                "  relief export cage.obj --height map.exr --rate 32 -o dense.ply\n"
                "  relief export cage.obj --height map.exr --edge-pixels 1 --size 3840,2160 -o hero.glb");

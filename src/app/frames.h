@@ -6,8 +6,9 @@
 
 namespace relief::app {
 
-/// "101", "1:24", "101:109x2" (every second one), and several of these with commas between; ranges may run down. Throws
-/// Failure::usage, saying what was found where, for anything else and for more than a million frames.
+/// The frames of a list such as "101", "1:24", "-5:5", "101:109x2" (every second one), or several of these with commas
+/// between them. Ranges may count down. Throws Failure::usage, naming what was expected at which character, for
+/// anything else and for more than a million frames.
 std::vector<int> parseFrames(const std::string& text);
 
 } // namespace relief::app

@@ -3,15 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/scene.h"
 #include "triangles/stages.h"
 
 namespace relief::app {
 namespace {
 
 constexpr int kHeatmapSide = 1024;
-constexpr double kDecades = 1; // of errors, from white to what is promised: rounding alone stays white
+constexpr double kDecades = 1; // of errors, from white to what is promised, so that rounding alone stays white
 
-/// A value that is not finite is as wrong as can be.
+/// From 0 at a tenth of what is promised to 1 at the promise. Values that are not finite are as wrong as can be.
 double errorHeat(const SampleError& error, const Promises& promises) {
     const double share = std::max(error.point / promises.point, error.tangent / promises.tangent);
     if (!std::isfinite(error.point + error.tangent)) return 1;
@@ -20,8 +21,8 @@ double errorHeat(const SampleError& error, const Promises& promises) {
 
 double foldHeat(double factor) { return std::isfinite(factor) ? std::clamp(1 - 2 * factor, 0.0, 1.0) : 0; }
 
-/// Samples lie in rows of as many as the first face has on its first side.
-std::uint32_t pointsASide(const SurfaceSamples& samples) {
+/// Samples of a face lie in rows; returns how many the first row of the first face has.
+std::uint32_t countSideSamples(const SurfaceSamples& samples) {
     std::uint32_t count = 0;
     while (count < samples.queries.size() && samples.queries[count].face == samples.queries[0].face &&
            samples.queries[count].uv.y == 0)
@@ -44,8 +45,7 @@ bool isFinite(const vec3& p) { return std::isfinite(p.x + p.y + p.z); }
 } // namespace
 
 void checkHeatmapPath(const std::string& path) {
-    if (!path.ends_with(".png") && !path.ends_with(".exr"))
-        fail(Failure::usage, "{}: heat maps are written as .png or .exr", path);
+    if (!isPicturePath(path)) fail(Failure::usage, "{}: heat maps are written as .png or .exr", path);
 }
 
 std::vector<float> heatValues(const Heat& heat) {
@@ -59,16 +59,16 @@ std::vector<float> heatValues(const Heat& heat) {
 }
 
 DenseMesh heatMesh(const Heat& heat, int sideCount) {
-    const std::uint32_t side = pointsASide(heat.samples);
+    const std::uint32_t side = countSideSamples(heat.samples);
     const std::vector<std::uint32_t> face =
         sideCount == 3 ? shortRowIndices(side - 1) : gridIndices(side - 1, side - 1);
-    const std::uint32_t pointsAFace = sideCount == 3 ? side * (side + 1) / 2 : side * side;
+    const std::uint32_t pointsPerFace = sideCount == 3 ? side * (side + 1) / 2 : side * side;
     DenseMesh mesh;
     for (const SampleResult& result : heat.results) {
         mesh.positions.push_back(result.q);
         mesh.normals.push_back(result.m);
     }
-    for (std::uint32_t first = 0; first < heat.results.size(); first += pointsAFace)
+    for (std::uint32_t first = 0; first < heat.results.size(); first += pointsPerFace)
         for (const std::uint32_t index : face) mesh.indices.push_back(first + index);
     mesh.heights = heatValues(heat);
     return mesh;

@@ -1,4 +1,4 @@
-// Where a surface is wrong, as a picture.
+// Heat maps: pictures of where a surface deviates from its reference or folds.
 #pragma once
 
 #include "app/certificate.h"
@@ -17,14 +17,15 @@ struct Heat {
     Promises promises;
 };
 
-/// One value a sample: up to +1 errors, on a logarithmic scale from 0 at a tenth of what is promised to 1 at the
-/// promise itself; down to -1 folds, from 0 where 1 + h kappa is 0.5 to -1 where it is 0 or less. Folds go first: the
-/// rounding of floats is some errors everywhere.
+/// One value per sample. Errors are positive, on a logarithmic scale from 0 at a tenth of what is promised to 1 at the
+/// promise itself. Folds are negative, from 0 where 1 + h kappa is 0.5 to -1 where it is 0 or less. Where there are
+/// both, folds are shown: the rounding of floats makes small errors everywhere.
 std::vector<float> heatValues(const Heat& heat);
 
-/// The displaced surface through the samples, of faces with so many sides, with those values as heights.
+/// The displaced surface through the samples as a mesh, with heatValues as heights. `sideCount`: sides per face, 3
+/// or 4.
 DenseMesh heatMesh(const Heat& heat, int sideCount);
-/// Errors are orange, folds blue, the rest white; from where `relief render` looks.
+/// A picture of that mesh from the default camera: errors orange, folds blue, the rest white.
 Picture drawHeatmap(Device& device, const DenseMesh& mesh);
 
 } // namespace relief::app

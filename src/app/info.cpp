@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/object_options.h"
 #include "app/output.h"
-#include "app/weld.h"
 #include "check/check.h"
 
 namespace relief::app {
@@ -16,20 +16,21 @@ using nlohmann::json;
 
 struct InfoArgs {
     std::vector<std::string> files;
-    SurfaceArgs surface; ///< what --height asks of the one cage among the files
+    ObjectDesc object; ///< options of the cages; with --height there is one of them
     bool listsDevices = false, isJson = false, isQuiet = false;
 };
 
-json ofBounds(const Bounds& b) {
+json boundsToJson(const Bounds& b) {
     return {{"lower", {b.lower.x, b.lower.y, b.lower.z}},
             {"upper", {b.upper.x, b.upper.y, b.upper.z}},
             {"diagonal", b.diagonal()}};
 }
 
-json ofCage(const std::string& path, const std::string& weld, const Warn& warn) {
-    const Cage cage = welded(readCage(path, warn), weld);
+json describeCage(const std::string& path, const std::optional<Distance>& weld, const Warn& warn) {
+    const Cage cage = weldCage(readCage(path, warn), weld);
     checkTexCoords(cage, {}, warn);
     const CageSummary s = summarize(cage);
+    // Named parts apart from the counts, which are of the whole cage.
     json parts = json::array();
     for (const CagePart& part : cage.parts)
         parts.push_back({{"name", part.name}, {"material", part.material}, {"faces", part.faceCount}});
@@ -53,33 +54,33 @@ json ofCage(const std::string& path, const std::string& weld, const Warn& warn) 
             {"texture_coordinates", s.texCoordCount},
             {"seam_edges", s.seamEdgeCount},
             {"bytes", cage.byteCount()},
-            {"bounds", ofBounds(s.bounds)},
+            {"bounds", boundsToJson(s.bounds)},
             {"parts", parts}};
 }
 
-double fractionOf(double part, double whole) { return whole > 0 ? part / whole : 0; }
+double toFraction(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
-/// How far the faces along the cage's edges disagree about the map.
-json ofSeams(SurfaceArgs args, const std::string& cage, bool isQuiet) {
-    args.cage = cage;
-    const Loaded loaded = load(args, {.isQuiet = isQuiet});
-    const ReferenceSurface reference(loaded.cage, loaded.options);
-    const SeamReport seams = reportSeams(loaded.surface, reference, *loaded.height);
-    const double unit = loaded.coordinates().unit, reach = loaded.height->heightBound();
-    json result{{"map", args.height},
-                {"map_reach", unit * reach},
+/// How far the heights of the two faces along the cage's edges differ.
+json describeSeams(ObjectDesc desc, const std::string& cage, bool isQuiet) {
+    desc.cage = cage;
+    const LoadedObject object = load(desc, CageState::posed, makeWarn(isQuiet));
+    const ReferenceSurface reference(object.cage, object.options);
+    const SeamReport seams = reportSeams(object.surface, reference, *object.height);
+    const double unit = object.coordinates().unit, displacementBound = object.height->heightBound();
+    json result{{"map", desc.height.path},
+                {"displacement_bound", unit * displacementBound},
                 {"map_seam_edges", seams.seamEdgeCount},
                 {"seam_disagreement_max", unit * seams.max},
                 {"seam_disagreement_mean", unit * seams.mean},
-                {"seam_max_of_reach", fractionOf(seams.max, reach)},
-                {"seam_mean_of_reach", fractionOf(seams.mean, reach)}};
+                {"seam_max_of_displacement_bound", toFraction(seams.max, displacementBound)},
+                {"seam_mean_of_displacement_bound", toFraction(seams.mean, displacementBound)}};
     if (seams.max > 0)
         result["seam_disagreement_at"] = {{"face", seams.worst.face}, {"u", seams.worst.uv.x}, {"v", seams.worst.uv.y}};
     return result;
 }
 
-/// What each channel holds, counted strip by strip: the picture is never in memory as a whole.
-std::vector<HeightCensus> censusOf(const std::string& path, const ImageInfo& info) {
+/// Counts what each channel holds, strip by strip: the picture is never in memory as a whole.
+std::vector<HeightCensus> takeCensus(const std::string& path, const ImageInfo& info) {
     std::vector<HeightCensus> channels(std::size_t(info.channels), HeightCensus(info));
     readImageRows(path, [&](int, int, std::span<const float> texels) {
         for (std::size_t i = 0; i < texels.size(); i += channels.size())
@@ -89,10 +90,10 @@ std::vector<HeightCensus> censusOf(const std::string& path, const ImageInfo& inf
     return channels;
 }
 
-/// Ranges of heights, voids, and texels that are no numbers.
-json ofTexels(const std::string& path, const ImageInfo& info) {
+/// The range of values of each channel, its voids, and its texels that are not finite.
+json describeTexels(const std::string& path, const ImageInfo& info) {
     json ranges = json::array(), voids = json::object(), notFinite = json::object();
-    const std::vector<HeightCensus> channels = censusOf(path, info);
+    const std::vector<HeightCensus> channels = takeCensus(path, info);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         const HeightCensus& channel = channels[c];
         const std::string& name = info.channelNames[c];
@@ -107,7 +108,7 @@ json ofTexels(const std::string& path, const ImageInfo& info) {
     return {{"ranges", ranges}, {"voids", voids}, {"not_finite", notFinite}};
 }
 
-json ofPicture(const std::string& path) {
+json describePicture(const std::string& path) {
     const ImageInfo info = readImageInfo(path);
     const MapFormat format = fileFormat(info);
     const std::vector<std::string> layers = layersOf(info);
@@ -124,25 +125,34 @@ json ofPicture(const std::string& path) {
                 {"map_format", wordOf(kMapFormats, format)},
                 {"map_bytes", mapBytes(format, info.width, info.height)}};
     if (info.noData) result["no_data"] = fmt::format("{}", *info.noData);
-    result.update(ofTexels(path, info));
+    result.update(describeTexels(path, info));
     return result;
 }
 
-json ofDevices() {
+/// A number of which the largest stands for no limit: null then.
+json toLimit(std::uint32_t value) { return value == 0xffffffffu ? json() : json(value); }
+
+json describeDevices() {
     json list = json::array();
-    for (const DeviceTraits& t : listDevices())
+    for (const DeviceTraits& t : listDevices()) {
+        const PathChoice choice = choosePath(t);
         list.push_back({{"device", t.name},
                         {"driver", t.driver},
                         {"vulkan", t.api},
                         {"cpu", t.isCpu},
+                        {"default_path", wordOf(kPaths, choice.path)},
+                        {"default_path_reason", choice.reason},
+                        {"reads_tables_as", describeTableReads(t)},
+                        {"limits", listLimits(t)},
                         {"tessellation_shaders", t.hasTessellation},
                         {"largest_tessellation_level", t.maxTessellationLevel},
                         {"wireframe", t.hasWireframe},
                         {"largest_image_side", t.maxImageSide},
                         {"memory", t.heapBytes},
                         {"times_passes", t.timestampNanoseconds > 0},
-                        {"tessellated_vertices_a_draw", t.tessellatedVerticesPerDraw},
-                        {"mesh_triangles_in_flight", t.meshTrianglesInFlight}});
+                        {"tessellated_vertices_per_draw", toLimit(t.tessellatedVerticesPerDraw)},
+                        {"mesh_triangles_in_flight", toLimit(t.meshTrianglesInFlight)}});
+    }
     return list;
 }
 
@@ -151,49 +161,60 @@ bool isCage(const std::string& path) {
     return extension == ".obj" || extension == ".gltf" || extension == ".glb";
 }
 
-std::string text(const json& value) {
+std::string formatValue(const json& value) {
     if (value.is_string()) return value.get<std::string>();
-    if (value.is_number_float()) // far from the origin six digits do not separate places
+    if (value.is_number_float()) // far from the origin six digits do not separate positions
         return fmt::format("{:.{}g}", value.get<double>(), std::abs(value.get<double>()) < 1e5 ? 6 : 12);
     if (!value.is_structured()) return value.dump();
     std::string joined;
     for (const auto& [key, item] : value.items())
-        joined += (joined.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + text(item);
+        joined += (joined.empty() ? "" : ", ") + (value.is_object() ? key + " " : "") + formatValue(item);
     return value.is_array() ? "(" + joined + ")" : joined;
 }
 
-/// One `name  value` a line, in the JSON's words; what is zero or empty is left out.
+bool isEmpty(const std::string& key, const json& value) {
+    const bool isZero = value.is_number() && value.get<double>() == 0 && key != "default_mid";
+    return value.is_null() || isZero || (value.is_structured() && value.empty());
+}
+
+void printRow(std::string name, const std::string& text) {
+    std::ranges::replace(name, '_', ' ');
+    std::cout << fmt::format("  {:28} {}\n", name, onOneLine(text));
+}
+
+/// Prints one `name  value` per line, in the JSON's words, and one line per limit. Zeros and what is empty are omitted.
 void print(const json& object) {
     for (const auto& [key, value] : object.items()) {
-        const bool isNothing = (value.is_number() && value.get<double>() == 0 && key != "default_mid") ||
-                               (value.is_structured() && value.empty());
-        if (isNothing) continue;
+        if (isEmpty(key, value)) continue;
         const bool isSize = key == "bytes" || key == "map_bytes" || key == "memory";
-        std::string name = key;
-        std::ranges::replace(name, '_', ' ');
-        std::cout << fmt::format("  {:28} {}\n", name,
-                                 isSize ? humanBytes(value.get<std::uint64_t>()) : onOneLine(text(value)));
+        if (isSize)
+            printRow(key, humanBytes(value.get<std::uint64_t>()));
+        else if (key == "limits")
+            for (const json& limit : value) printRow(limit == value.front() ? key : "", limit.get<std::string>());
+        else
+            printRow(key, formatValue(value));
     }
 }
 
 void checkUsage(const InfoArgs& args) {
     if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info wants files, or --devices");
-    if (!args.surface.height.empty() && std::ranges::count_if(args.files, isCage) != 1)
-        fail(Failure::usage, "--height {}: name the one cage that the map is for", args.surface.height);
+    const std::string& map = args.object.height.path;
+    if (!map.empty() && std::ranges::count_if(args.files, isCage) != 1)
+        fail(Failure::usage, "--height {}: name the one cage that the map is for", map);
 }
 
 int info(const InfoArgs& args) {
     checkUsage(args);
-    const bool hasMap = !args.surface.height.empty();
-    // With a map the cage is read a second time, and warned of then.
-    const Warn warn = args.isQuiet || hasMap ? Warn([](const std::string&) {}) : Warn(warnOnStderr);
+    const bool hasMap = !args.object.height.path.empty();
+    // With a map the cage is read a second time, and its warnings are printed then.
+    const Warn warn = makeWarn(args.isQuiet || hasMap);
     json all = json::array();
     for (const std::string& file : args.files) {
-        all.push_back(isCage(file) ? ofCage(file, args.surface.weld, warn) : ofPicture(file));
-        if (isCage(file) && hasMap) all.back().update(ofSeams(args.surface, file, args.isQuiet));
+        all.push_back(isCage(file) ? describeCage(file, args.object.weld, warn) : describePicture(file));
+        if (isCage(file) && hasMap) all.back().update(describeSeams(args.object, file, args.isQuiet));
     }
     if (args.listsDevices)
-        for (json& device : ofDevices()) all.push_back(std::move(device));
+        for (json& device : describeDevices()) all.push_back(std::move(device));
     if (args.isJson) {
         printJson(all);
         return 0;
@@ -212,13 +233,15 @@ int info(const InfoArgs& args) {
 
 Run addInfo(CLI::App& app) {
     auto args = std::make_shared<InfoArgs>();
-    app.add_option("files", args->files, "cages (.obj .gltf .glb), height maps, pictures")->option_text("FILE...");
-    addSurfaceOptions(app, args->surface);
-    app.add_flag("--devices", args->listsDevices, "the Vulkan devices of this machine");
-    app.add_flag("--json", args->isJson, "print as JSON on stdout");
-    app.add_flag("-q,--quiet", args->isQuiet, "no warnings");
+    app.add_option("files", args->files, "cages (.obj .gltf .glb), height maps and other pictures")
+        ->option_text("FILE...");
+    addSurfaceOptions(app, args->object);
+    app.add_flag("--devices", args->listsDevices,
+                 "list the Vulkan devices of this machine: the default --path on each, and what each cannot do");
+    app.add_flag("--json", args->isJson, "print JSON on stdout");
+    app.add_flag("-q,--quiet", args->isQuiet, "print no warnings");
     app.footer(
-        "With --height, a cage is told with how far the two sides of its texture's seams disagree about that map.\n"
+        "With --height, the report of a cage says how far the heights on the two sides of its texture's seams differ.\n"
         "examples:\n"
         "  relief info cage.obj heights.exr\n"
         "  relief info cage.obj --height heights.exr --scale 0.2\n"

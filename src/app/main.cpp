@@ -1,12 +1,9 @@
 // relief: displaced subdivision surfaces on any Vulkan 1.3 device.
-#include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -14,10 +11,11 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include "app/command_line.h"
 #include "app/commands.h"
+#include "app/help.h"
 #include "app/memory.h"
 #include "app/output.h"
-#include "app/weld.h"
 
 namespace {
 
@@ -30,13 +28,13 @@ struct Command {
 };
 
 constexpr Command kCommands[] = {
-    {"render", "one picture of a displaced cage, or of a dense mesh", app::addRender},
-    {"animate", "many pictures of a cage that moves, or a clip of them", app::addAnimate},
-    {"export", "the displaced triangles as a mesh", app::addExport},
-    {"sample", "the device's own frames at given points of the surface", app::addSample},
-    {"check", "certificate: watertight, exact, one-to-one", app::addCheck},
-    {"bench", "what displacement costs and saves, against dense meshes", app::addBench},
-    {"info", "what a file holds; what the devices can do", app::addInfo},
+    {"render", "draw one picture of a displaced cage, or of a mesh of triangles", app::addRender},
+    {"animate", "draw the frames of a cage that moves, as pictures or as a clip", app::addAnimate},
+    {"export", "write the displaced triangles as a mesh", app::addExport},
+    {"sample", "evaluate points, tangents and normals of the surface on the device", app::addSample},
+    {"check", "certify that the triangles are watertight, exact and one-to-one", app::addCheck},
+    {"bench", "measure what displacement costs and saves, against dense meshes", app::addBench},
+    {"info", "describe files, or the Vulkan devices of this machine", app::addInfo},
 };
 
 int fault(Failure failure, const std::string& line) {
@@ -44,72 +42,30 @@ int fault(Failure failure, const std::string& line) {
     return int(failure);
 }
 
-/// The first option of one value that is given again, as the user calls it, or "". CLI11 counts the values instead.
-std::string repeatedOption(const CLI::App& command, int argc, char** argv) {
-    std::set<const CLI::Option*> seen;
-    for (int i = 1; i < argc; ++i) {
-        const std::string_view word = argv[i];
-        std::string name(word.substr(0, word.starts_with("--") ? word.find('=') : 2));
-        const CLI::Option* option = name.starts_with('-') ? command.get_option_no_throw(name) : nullptr;
-        if (option == nullptr || option->get_multi_option_policy() != CLI::MultiOptionPolicy::Throw) continue;
-        if (!seen.insert(option).second) return name;
-    }
-    return "";
-}
-
-/// What helps more than CLI11's own words: an option given twice, the nearest option or verb to an unknown one, or the
-/// verbs that there are.
-std::string hintFor(const CLI::App& top, int argc, char** argv) {
-    const CLI::App* command = top.get_subcommands().empty() ? &top : top.get_subcommands().front();
-    const std::string repeated = repeatedOption(*command, argc, argv);
-    if (!repeated.empty()) return fmt::format("{} is given twice; give it once", repeated);
-    std::vector<std::string> known;
-    for (const CLI::Option* option : command->get_options())
-        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    if (command == &top)
-        for (const Command& c : kCommands) known.emplace_back(c.name);
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = std::string(argv[i]).substr(0, std::string_view(argv[i]).find('='));
-        const bool isCandidate = command == &top ? i == 1 : word.starts_with("--");
-        if (!isCandidate || std::ranges::find(known, word) != known.end()) continue;
-        const std::string near = nearestWord(word, known);
-        if (!near.empty()) return fmt::format("{} is not known here; did you mean {}?", word, near);
-    }
-    if (command != &top) return "";
-    std::string verbs;
-    for (const Command& c : kCommands) verbs += fmt::format("{}{}", verbs.empty() ? "" : ", ", c.name);
-    return fmt::format("name what to do first: {} (relief --help explains)", verbs);
-}
-
-/// Numbers are finite, whatever the option and its range: CLI::Range lets "nan" through.
-void wantFiniteNumbers(CLI::App& verb) {
-    const auto check = [](const std::string& word) {
-        double value = 0;
-        const bool isNumber = CLI::detail::lexical_cast(word, value);
-        return isNumber && !std::isfinite(value) ? fmt::format("{} is not a finite number", word) : std::string();
-    };
-    const auto isNumber = [](const CLI::Option* option) { return option->get_type_name().starts_with("FLOAT"); };
-    for (CLI::Option* option : verb.get_options(isNumber)) option->check(CLI::Validator(check, ""));
-}
-
-int run(int argc, char** argv) {
-    CLI::App app("Renders, animates, exports and measures displaced subdivision surfaces.", "relief");
+int run(std::vector<std::string> words) {
+    CLI::App app("Renders, animates, exports, certifies and measures displaced subdivision surfaces.", "relief");
+    app.formatter(std::make_shared<app::HelpFormatter>());
     app.set_version_flag("--version", "relief 0.1.0");
     app.require_subcommand(1);
     app.footer("exit codes: 0 done, 1 internal error, 2 usage, 3 bad input, 4 reading or writing failed,\n"
                "            5 no device or out of memory, 6 a check failed, 130 interrupted\n"
                "relief VERB --help explains each verb.");
+    // Each verb adds its options; the one that is named leaves what to run.
     app::Run chosen;
+    std::vector<std::string> verbs;
     for (const Command& command : kCommands) {
         CLI::App* verb = app.add_subcommand(command.name, command.description);
         verb->callback([&chosen, action = command.add(*verb)] { chosen = action; });
-        wantFiniteNumbers(*verb);
+        app::requireFiniteNumbers(*verb);
+        verbs.emplace_back(command.name);
     }
+    // CLI11 wants the words after the program's name, the last one first.
+    words.erase(words.begin());
     try {
-        app.parse(argc, argv);
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == 0) return app.exit(error);
-        const std::string hint = hintFor(app, argc, argv);
+        const std::string hint = app::explainMistake(app, words, verbs);
         return fault(Failure::usage, hint.empty() ? error.what() : hint);
     }
     const int code = chosen();
@@ -117,7 +73,7 @@ int run(int argc, char** argv) {
     return code;
 }
 
-/// What libraries say in their own kinds of exceptions.
+/// Reports exceptions of the system: threads, memory, files.
 int faultOf(const std::system_error& error) {
     const std::error_code code = error.code();
     if (code == std::errc::resource_unavailable_try_again)
@@ -128,7 +84,7 @@ int faultOf(const std::system_error& error) {
     return fault(isFile ? Failure::file : Failure::internal, error.what());
 }
 
-/// Of the exception at hand.
+/// Reports the exception that is being handled; returns the exit code.
 int faultOfCurrent() {
     try {
         throw;
@@ -136,7 +92,7 @@ int faultOfCurrent() {
         return fault(error.failure, error.what());
     } catch (const app::OutOfMemory& error) {
         return fault(Failure::device, error.what());
-    } catch (const std::bad_alloc&) { // of a library's own making
+    } catch (const std::bad_alloc&) { // thrown by a library's own allocator
         return fault(Failure::device, "out of memory");
     } catch (const std::length_error&) {
         return fault(Failure::device, "out of memory: more was asked for than any memory holds");
@@ -147,14 +103,14 @@ int faultOfCurrent() {
     }
 }
 
-/// Exceptions in threads of libraries, or through code that knows none.
+/// Handles exceptions that escape from threads of libraries or through functions that may not throw.
 [[noreturn]] void endTerminated() {
     if (std::current_exception()) _exit(faultOfCurrent());
     std::abort();
 }
 
-/// Files that this program opens must not become its stdout or stderr where those are closed: what is printed would
-/// get into them. Each is opened such that using it fails as before.
+/// Opens stdin, stdout and stderr where they are closed, so that no file that this program opens later takes their
+/// numbers and receives what is printed. They are opened the wrong way round: using them fails as before.
 void occupyStandardFiles() {
     for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(file, F_GETFD) < 0 && open("/dev/null", file == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
@@ -170,10 +126,7 @@ int main(int argc, char** argv) {
     try {
         occupyStandardFiles();
         endCleanlyOnInterrupt();
-        std::vector<std::string> words = app::withDefaultDistances(argc, argv);
-        std::vector<char*> pointers;
-        for (std::string& word : words) pointers.push_back(word.data());
-        return run(argc, pointers.data());
+        return run(app::prepareWords(argc, argv));
     } catch (...) {
         return faultOfCurrent();
     }

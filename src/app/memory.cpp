@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kScarceBytes = 128 << 20;
 
-/// Ends the program from a place where little is allowed.
+/// Ends the program by async-signal-safe calls alone.
 [[noreturn]] void endHere(std::string_view line) {
     [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
     _exit(int(Failure::device));
@@ -26,10 +26,10 @@ constexpr std::size_t kScarceBytes = 128 << 20;
 void onCrash(int signal) {
     void* more = mmap(nullptr, kScarceBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (more == MAP_FAILED)
-        endHere("relief: out of memory: a library crashed where 128 MB more are not to be had; raise the limit "
+        endHere("relief: out of memory: a library crashed where 128 MB more cannot be allocated; raise the limit "
                 "(ulimit -v)\n");
     munmap(more, kScarceBytes);
-    raise(signal); // by now the system's own way to end
+    raise(signal); // the handler is reset: this is the system's own way to end
 }
 
 bool isLimited(int resource) {
@@ -41,7 +41,7 @@ bool isLimited(int resource) {
 
 OutOfMemory::OutOfMemory(std::size_t bytes) noexcept {
     fmt::format_to_n(text_.data(), text_.size() - 1,
-                     "out of memory: {} more are not to be had; try a lower --rate, --isolation or --size, or a "
+                     "out of memory: {} more cannot be allocated; try a lower --rate, --isolation or --size, or a "
                      "smaller input",
                      humanBytes(bytes));
 }
@@ -73,8 +73,8 @@ void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 namespace relief::app {
 namespace {
 
-// --- threads: some libraries start theirs before main and end the program where they cannot, and a driver that cannot
-// waits for ever. So as many as are needed at most are tried before any of them comes to its turn.
+// --- threads: some libraries start theirs before main and abort where they cannot, and a driver that cannot waits for
+// ever. So as many threads as they may need are started, and ended, before any library is initialized.
 
 constexpr int kOtherThreads = 8; ///< beside one per core: the libraries', and those of this program
 

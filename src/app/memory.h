@@ -1,4 +1,4 @@
-// Memory and threads that run out, here or in the libraries: exit code 5 with one line.
+// Running out of memory or threads, here or in the libraries, ends the program with exit code 5 and one line.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace relief::app {
 
-/// What this program's operator new throws. It takes no memory itself.
+/// Thrown by this program's operator new. It allocates nothing itself.
 class OutOfMemory : public std::bad_alloc {
 public:
     explicit OutOfMemory(std::size_t bytes) noexcept;
@@ -17,8 +17,8 @@ private:
     std::array<char, 160> text_{};
 };
 
-/// Where memory is limited (ulimit -v), a library that crashes or aborts for lack of it ends the program with exit code
-/// 5 from now on: drivers do not look at each result. Any other crash stays one.
+/// From now on, where memory is limited (ulimit -v), a library that crashes or aborts because there is none left ends
+/// the program with exit code 5: drivers do not check every allocation. Any other crash stays a crash.
 void endWhereMemoryRunsOut();
 
 } // namespace relief::app

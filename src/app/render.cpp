@@ -7,33 +7,35 @@
 
 #include "app/commands.h"
 #include "app/empty.h"
+#include "app/object_options.h"
 #include "app/output.h"
-#include "app/weld.h"
+#include "app/picture_options.h"
 
 namespace relief::app {
 namespace {
 
 struct RenderArgs {
-    SurfaceArgs surface;
+    SceneDesc scene;
     PictureArgs picture;
     Output output;
     std::string target;
 };
 
-/// A picture and what is told of it, when everything that made it is gone.
+/// A picture and what is reported of it, after everything that made it is freed.
 struct Drawn {
     Picture picture;
     std::string device;
     std::string mapFormat; ///< empty without a map
-    std::string complaint; ///< where there is nothing to see
+    std::string complaint; ///< why there is nothing to see, or empty
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
-    std::uint64_t peakDeviceBytes = 0; ///< of everything that the frame has on the device
+    std::uint64_t peakDeviceBytes = 0; ///< the most that was allocated on the device while the frame was drawn
     double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
 };
 
 void report(const RenderArgs& args, const Drawn& drawn) {
     const FrameStats& stats = drawn.picture.stats;
     if (args.output.isJson) {
+        // Programs read these names: relief bench does.
         printJson({{"picture", args.target},
                    {"device", drawn.device},
                    {"triangles", stats.triangleCount},
@@ -58,6 +60,7 @@ void report(const RenderArgs& args, const Drawn& drawn) {
                    {"light_ms", stats.lightMs},
                    {"frame_ms", stats.wallMs}});
     } else if (!args.output.isQuiet) {
+        // One line for people, and a second one with the time of every step.
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
                                  drawn.device);
         if (args.output.isVerbose)
@@ -70,57 +73,50 @@ void report(const RenderArgs& args, const Drawn& drawn) {
     }
 }
 
-/// Memory goes back as soon as it is not needed: the peak is the frame itself, not everything that led to it.
-Drawn draw(const RenderArgs& args, Progress& progress) {
-    // A driver takes its time to load: it does so while files are read.
+/// Memory is freed as soon as it is not needed: the peak is that of the frame itself, not of what led to it.
+Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
+    // Loading a driver takes its time: it does so while files are read.
     std::future<std::unique_ptr<Device>> opening =
         std::async([&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
-    Loaded loaded = load(args.surface, args.output, args.picture.albedo);
-    warnOfPlainTags(loaded, args.surface, args.output.warn());
+    LoadedScene loaded = load(args.scene, CageState::posed, warn);
     progress.advance();
-    Shading shading = loadShading(args.picture, args.surface, loaded.cage, args.output.warn());
-    const std::vector<dvec3> points = outlineOf(loaded);
+    const std::vector<dvec3> points = computeOutline(loaded.object);
     progress.advance();
 
+    // What the picture shows, and the model of it.
     const std::unique_ptr<Device> opened = opening.get();
     Device& device = *opened;
-    PictureArgs picture = args.picture;
-    enter(loaded.coordinates(), picture.camera);
-    RenderOptions options = renderOptions(picture, device, points);
-    options.unit = loaded.coordinates().unit;
-    std::optional<GpuEnvironment> environment;
-    if (shading.environment) {
-        environment = uploadEnvironment(device, *shading.environment);
-        options.lighting.environment = &*environment;
-    }
-    const Image* albedo = shading.albedo ? &*shading.albedo : nullptr;
-    Model model = loaded.dense ? Model(MeshModel(device, {.mesh = &*loaded.dense, .albedo = albedo}))
-                               : Model(SurfaceModel(device, {.surface = &loaded.surface,
-                                                             .cagePositions = loaded.cage.positions,
-                                                             .height = loaded.heightMap(),
-                                                             .albedo = albedo}));
-    const SurfaceModel* onDevice = surfaceOf(model);
-    const std::unique_ptr<Poser> poser =
-        stretchHeights(device, std::get_if<SurfaceModel>(&model), loaded, args.picture.heightSpace);
+    const Coordinates coordinates = loaded.object.coordinates();
+    RenderOptions options = toRenderOptions(args.picture, args.scene, loaded.object, device);
+    const std::optional<GpuEnvironment> environment = makeEnvironment(device, loaded);
+    options.lighting =
+        makeLighting(args.scene.lighting, args.scene.camera.azimuth, environment ? &*environment : nullptr);
+    options.camera = makeCamera(args.scene, coordinates, points);
+    for (const dvec3& p : points) options.bounds.add(p);
+    Model model = makeModel(device, loaded.object);
+    SurfaceModel* surface = std::get_if<SurfaceModel>(&model);
+    if (surface != nullptr) stretchHeights(device, *surface, loaded.object, args.scene.object.height.space);
+
+    // From here on the device holds everything that is drawn.
+    const LoadedObject& object = loaded.object;
     Drawn drawn{.device = device.traits().name,
-                .mapFormat = loaded.height ? wordOf(loaded.height->format) : "",
-                .cageBytes = loaded.cage.byteCount(),
-                .mapBytes = onDevice != nullptr && onDevice->height ? onDevice->height->words.buffer.bytes : 0,
+                .mapFormat = object.height ? wordOf(kMapFormats, object.heightEncoding.format) : "",
+                .cageBytes = object.cage.byteCount(),
+                .mapBytes = surface != nullptr && surface->height ? surface->height->words.buffer.bytes : 0,
                 .deviceBytes = byteCountOf(model),
-                .loadSeconds = loaded.loadSeconds,
-                .surfaceSeconds = loaded.surfaceSeconds,
-                .tableSeconds = loaded.surface.tableSeconds};
-    const Coordinates coordinates = loaded.coordinates();
+                .loadSeconds = object.loadSeconds,
+                .surfaceSeconds = object.surfaceSeconds,
+                .tableSeconds = object.surface.tableSeconds};
     loaded = {};
-    shading.albedo.reset();
     malloc_trim(0);
     progress.advance();
-    Renderer renderer(device, {.width = args.picture.camera.size[0], .height = args.picture.camera.size[1]});
+
+    const ivec2& size = args.scene.size;
+    Renderer renderer(device, {.width = size.x, .height = size.y});
     device.startPeak();
-    drawn.picture = renderer.render(Instance(model, materialOf(args.picture)), options);
+    drawn.picture = renderer.render(Instance(model, makeMaterial(args.scene.object.material)), options);
     drawn.peakDeviceBytes = device.peakBytes();
-    const std::vector<int>& size = args.picture.camera.size;
-    drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size[0], size[1], coordinates});
+    drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size, coordinates});
     progress.advance();
     checkValidation(device);
     return drawn;
@@ -128,12 +124,13 @@ Drawn draw(const RenderArgs& args, Progress& progress) {
 
 int render(const RenderArgs& args) {
     checkPicturePath(args.target, args.picture);
-    checkOutput(args.target, inputsOf(args.surface, args.picture));
+    checkOutput(args.target, listFiles(args.scene));
     Progress progress("rendering", 5, args.output.progress);
-    const Drawn drawn = draw(args, progress);
-    writePicture(args.target, drawn.picture, finishOf(args.picture));
+    const Warn warn = makeWarn(args.output.isQuiet);
+    const Drawn drawn = draw(args, warn, progress);
+    writePicture(args.target, drawn.picture, args.picture.finish);
     progress.advance();
-    if (!drawn.complaint.empty()) args.output.warn()(fmt::format("{}: {}", args.surface.cage, drawn.complaint));
+    if (!drawn.complaint.empty()) warn(fmt::format("{}: {}", args.scene.object.cage, drawn.complaint));
     report(args, drawn);
     return 0;
 }
@@ -142,10 +139,10 @@ int render(const RenderArgs& args) {
 
 Run addRender(CLI::App& app) {
     auto args = std::make_shared<RenderArgs>();
-    addSurface(app, args->surface);
+    addObject(app, args->scene.object);
     app.add_option("-o,--output", args->target, "picture to write: .png or .exr")->required()->option_text("PICTURE");
-    addPicture(app, args->picture);
-    addTime(app, args->surface.pose);
+    addPicture(app, args->scene, args->picture);
+    addTime(app, args->scene.object.motion);
     addOutput(app, args->output);
     app.footer(
         "examples:\n"

@@ -4,15 +4,18 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/object_options.h"
 #include "app/output.h"
+#include "app/picture_options.h"
 
 namespace relief::app {
 namespace {
 
 struct SampleArgs {
-    SurfaceArgs surface;
+    ObjectDesc object;
     Output output;
-    std::string points, target, normal = "full", device;
+    NormalKind normal = SampleOptions().normal;
+    std::string points, target, device;
 };
 
 constexpr std::string_view kHeader = "face,u,v,px,py,pz,pux,puy,puz,pvx,pvy,pvz,nx,ny,nz,h,qx,qy,qz,mx,my,mz\n";
@@ -54,7 +57,8 @@ std::vector<SampleQuery> readPoints(const std::string& path) {
     return queries;
 }
 
-/// Numbers in the world. Nine digits give each float back; places far from the origin take the digits of a double.
+/// Writes rows in world coordinates. Nine digits give each float back; positions far from the origin take the digits of
+/// a double.
 class Rows {
 public:
     explicit Rows(const Coordinates& coordinates) : coordinates_(coordinates) {}
@@ -62,10 +66,10 @@ public:
     void add(const SampleQuery& query, const SampleResult& r) {
         const double unit = coordinates_.unit;
         text_ += fmt::format("{},{:.9g},{:.9g}", query.face, query.uv.x, query.uv.y);
-        put(coordinates_.toWorld(r.p), placeDigits_);
+        put(coordinates_.toWorld(r.p), positionDigits_);
         for (const dvec3& v : {unit * dvec3(r.pu), unit * dvec3(r.pv), dvec3(r.n)}) put(v, kFloatDigits);
         text_ += fmt::format(",{:.9g}", unit * r.h);
-        put(coordinates_.toWorld(r.q), placeDigits_);
+        put(coordinates_.toWorld(r.q), positionDigits_);
         put(r.m, kFloatDigits);
         text_ += '\n';
     }
@@ -79,20 +83,20 @@ private:
     }
 
     Coordinates coordinates_;
-    int placeDigits_ = coordinates_.isIdentity() ? kFloatDigits : kDoubleDigits;
+    int positionDigits_ = coordinates_.isIdentity() ? kFloatDigits : kDoubleDigits;
     std::string text_{kHeader};
 };
 
 /// One CSV row for each query, with the device's frames.
-Rows sampledRows(Device& device, const SurfaceModel& model, const std::vector<SampleQuery>& queries, const SampleArgs& args,
-                 const Coordinates& coordinates) {
+Rows sampleRows(Device& device, const SurfaceModel& model, const std::vector<SampleQuery>& queries,
+                const SampleArgs& args, const Coordinates& coordinates) {
     SurfaceSampler sampler(device);
     Progress progress("sampling", queries.size(), args.output.progress);
     Rows rows(coordinates);
     for (std::size_t first = 0; first < queries.size(); first += kRowsAtOnce) {
         const auto part = std::span(queries).subspan(first, std::min(kRowsAtOnce, queries.size() - first));
         const std::vector<SampleResult> results =
-            sampler.sample(model, part, {.firstRow = first, .normal = normalKind(args.normal)});
+            sampler.sample(model, part, {.firstRow = first, .normal = args.normal});
         for (std::size_t i = 0; i < part.size(); ++i) rows.add(part[i], results[i]);
         progress.advance(part.size());
     }
@@ -100,19 +104,21 @@ Rows sampledRows(Device& device, const SurfaceModel& model, const std::vector<Sa
 }
 
 int sample(const SampleArgs& args) {
-    std::vector<std::string> inputs = inputsOf(args.surface);
+    // Mistakes in the command line come before those in files.
+    std::vector<std::string> inputs = listFiles(args.object);
     inputs.push_back(args.points);
     checkOutput(args.target, inputs);
     const std::vector<SampleQuery> queries = readPoints(args.points);
-    const Loaded loaded = load(args.surface, args.output);
-    if (loaded.dense)
-        fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.surface.cage);
+    const LoadedObject object = load(args.object, CageState::posed, makeWarn(args.output.isQuiet));
+    if (object.dense)
+        fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.object.cage);
+
+    // Queries that name no point of the surface are mistakes in their file.
     Device device({.name = args.device});
-    const SurfaceModel model(
-        device, {.surface = &loaded.surface, .cagePositions = loaded.cage.positions, .height = loaded.heightMap()});
+    const SurfaceModel model = makeSurfaceModel(device, object);
     std::string text;
     try {
-        text = sampledRows(device, model, queries, args, loaded.coordinates()).takeText();
+        text = sampleRows(device, model, queries, args, object.coordinates()).takeText();
     } catch (const Error& error) {
         if (error.failure != Failure::input) throw;
         fail(error.failure, "{}: {}", args.points, error.what());
@@ -130,19 +136,21 @@ int sample(const SampleArgs& args) {
 
 Run addSample(CLI::App& app) {
     auto args = std::make_shared<SampleArgs>();
-    addSurface(app, args->surface);
-    addTime(app, args->surface.pose);
-    app.add_option("--at", args->points, "rows face,u,v: ptex face and its own coordinates")
+    addObject(app, args->object);
+    addTime(app, args->object.motion);
+    app.add_option("--at", args->points,
+                   "points to evaluate, rows face,u,v: number of the ptex face from 0, coordinates 0..1 within it")
         ->required()
         ->option_text("POINTS.csv");
-    app.add_option("-o,--output", args->target, "rows with the frame of each point")->required()->option_text("F.csv");
+    app.add_option("-o,--output", args->target, "table to write, one row per point")->required()->option_text("F.csv");
     addNormal(app, args->normal);
     addDevice(app, args->device);
     addOutput(app, args->output);
-    app.footer(
-        "columns: p limit point, pu and pv its derivatives, n normal, h height, q displaced point, m its normal\n"
-        "example:\n"
-        "  relief sample cage.obj --height map.exr --at points.csv -o frames.csv");
+    app.footer("columns: p point of the smooth surface, pu and pv its derivatives, n its normal, h height, q displaced "
+               "point,\n"
+               "m its normal\n"
+               "example:\n"
+               "  relief sample cage.obj --height map.exr --at points.csv -o frames.csv");
     return [args] { return sample(*args); };
 }
 

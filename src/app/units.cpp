@@ -6,7 +6,7 @@
 
 namespace relief::app {
 
-std::optional<std::uint64_t> bytesOf(const std::string& word) {
+std::optional<std::uint64_t> parseBytes(const std::string& word) {
     double number = 0;
     const char* end = word.data() + word.size();
     const auto [unit, error] = std::from_chars(word.data(), end, number);
@@ -21,7 +21,7 @@ std::optional<std::uint64_t> bytesOf(const std::string& word) {
 
 CLI::Validator sizeInBytes() {
     const auto check = [](const std::string& word) {
-        return bytesOf(word) ? std::string() : fmt::format("{} is not a size in 1M..1T, such as 512M or 2G", word);
+        return parseBytes(word) ? std::string() : fmt::format("{} is not a size in 1M..1T, such as 512M or 2G", word);
     };
     return {check, ""};
 }
@@ -38,7 +38,8 @@ CLI::Validator distanceFromZero() {
     const auto check = [](const std::string& word) {
         const std::optional<Distance> distance = parseDistance(word);
         if (distance && distance->value >= 0 && std::isfinite(distance->value)) return std::string();
-        return fmt::format("{} is no distance: 0 or more cage units, or a share of the diagonal such as 0.01%", word);
+        return fmt::format("{} is no distance: 0 or more cage units, or a percentage of the diagonal such as 0.01%",
+                           word);
     };
     return {check, ""};
 }

@@ -1,28 +1,23 @@
-// Words of the command line that are sizes and distances.
+// Values of options that are sizes in bytes and distances.
 #pragma once
 
 #include <optional>
 
 #include <CLI/CLI.hpp>
 
-#include "base/base.h"
+#include "scene/scene.h"
 
 namespace relief::app {
 
-/// Bytes of "512M", "1.5G" or "4000000", decimal as humanBytes prints them; nothing where the word is no such size.
-std::optional<std::uint64_t> bytesOf(const std::string& word);
+/// The bytes of a size such as "512M", "1.5G" or "4000000"; units are decimal, as humanBytes prints them. Nothing
+/// where the word is not a size from 1M to 1T.
+std::optional<std::uint64_t> parseBytes(const std::string& word);
+/// Accepts what parseBytes reads.
 CLI::Validator sizeInBytes();
 
-/// In cage units, or as a share of the diagonal of a bounding box.
-struct Distance {
-    double value = 0;
-    bool isShare = false;
-
-    [[nodiscard]] double cageUnits(double diagonal) const { return isShare ? value * diagonal : value; }
-};
-/// Of "0.01" or "0.5%"; nothing where the word is neither, whatever its sign.
+/// The distance of a word such as "0.01" or "0.5%", of either sign; nothing where the word is neither.
 std::optional<Distance> parseDistance(std::string word);
-/// Distances of 0 or more.
+/// Accepts finite distances of 0 or more.
 CLI::Validator distanceFromZero();
 
 } // namespace relief::app

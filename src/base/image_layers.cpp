@@ -59,7 +59,7 @@ std::optional<BadTexel> findNotFinite(const Image& image) {
     if (bad == image.texels.end()) return {};
     const auto index = std::size_t(bad - image.texels.begin()), texel = index / std::size_t(image.channels);
     return BadTexel{int(texel % std::size_t(image.width)), int(texel / std::size_t(image.width)),
-                      int(index % std::size_t(image.channels)), *bad};
+                    int(index % std::size_t(image.channels)), *bad};
 }
 
 } // namespace relief

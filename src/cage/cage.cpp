@@ -123,8 +123,7 @@ void validateCage(const Cage& cage, const std::string& name) {
 }
 
 void recenter(Cage& cage) {
-    const Bounds bounds =
-        computeBounds(cage.corners, [&](std::uint32_t corner) { return cage.positions[corner]; });
+    const Bounds bounds = computeBounds(cage.corners, [&](std::uint32_t corner) { return cage.positions[corner]; });
     const dvec3 shift = coordinatesFor(bounds).origin;
     if (shift == dvec3(0)) return;
     for (vec3& p : cage.positions) p = dvec3(p) - shift;

@@ -7,9 +7,9 @@
 #include <map>
 #include <set>
 
+#include "base/unique_points.h"
 #include "cage/edges.h"
 #include "cage/obj.h"
-#include "base/unique_points.h"
 
 namespace relief {
 

@@ -82,7 +82,8 @@ void timeFrames(SuiteContext& context, const TestScene& scene, SceneOnDevice& on
 
     // What is drawn, and how each of it is posed.
     std::vector<TimedDrawing> drawings;
-    const auto add = [&](Method method, const Instance& instance, std::function<void(int)> updatePose) -> TimedDrawing& {
+    const auto add = [&](Method method, const Instance& instance,
+                         std::function<void(int)> updatePose) -> TimedDrawing& {
         drawings.push_back({.method = method, .instance = instance, .options = on.renderOptions(rate)});
         drawings.back().updatePose = std::move(updatePose);
         return drawings.back();

@@ -97,7 +97,8 @@ const Evaluated& CompressionStudy::evaluate(const Compression& compression) {
 std::uint64_t CompressionStudy::surfaceBytes(int isolation) {
     std::uint64_t& bytes = surfaceBytes_[isolation];
     if (bytes == 0)
-        bytes = SurfaceModel(device_, {.surface = &surface(isolation), .cagePositions = scene_.cage.positions}).byteCount;
+        bytes =
+            SurfaceModel(device_, {.surface = &surface(isolation), .cagePositions = scene_.cage.positions}).byteCount;
     return bytes;
 }
 

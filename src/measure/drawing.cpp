@@ -27,8 +27,10 @@ RenderOptions makeRenderOptions(const Bounds& bounds, const Camera& camera) {
 }
 
 SceneOnDevice::SceneOnDevice(Device& device, const TestScene& scene)
-    : surface(buildSurface(scene.cage, scene.surface)),
-      model(device, {.surface = &surface, .cagePositions = scene.cage.positions, .height = &scene.height, .encoding = &scene.heightEncoding}) {
+    : surface(buildSurface(scene.cage, scene.surface)), model(device, {.surface = &surface,
+                                                                       .cagePositions = scene.cage.positions,
+                                                                       .height = &scene.height,
+                                                                       .encoding = &scene.heightEncoding}) {
     const ReferenceSurface coarse(scene.cage, {.scheme = scene.surface.scheme, .isolation = 2});
     const std::vector<dvec3> points = outline(coarse, &scene.height);
     views = makeCameraPath(points);
@@ -52,9 +54,7 @@ DenseMesh makeDenseMesh(Device& device, const SurfaceModel& model, int rate) {
     return Dicer(device).diceToHost(model, makeUniformRates(model, rate), {.wantsTexCoords = model.hasTexCoords});
 }
 
-MeshModel uploadDenseMesh(Device& device, const DenseMesh& mesh) {
-    return MeshModel(device, {.mesh = &mesh});
-}
+MeshModel uploadDenseMesh(Device& device, const DenseMesh& mesh) { return MeshModel(device, {.mesh = &mesh}); }
 
 namespace {
 

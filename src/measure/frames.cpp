@@ -83,8 +83,9 @@ void measurePreparation(SuiteContext& context, const TestScene& scene) {
             malloc_trim(0);
             Surface surface;
             tables.push_back(measureMilliseconds([&] { surface = buildSurface(cage, scene.surface); }));
-            upload.push_back(measureMilliseconds(
-                [&] { const SurfaceModel model(context.device, {.surface = &surface, .cagePositions = cage.positions}); }));
+            upload.push_back(measureMilliseconds([&] {
+                const SurfaceModel model(context.device, {.surface = &surface, .cagePositions = cage.positions});
+            }));
         }
 
         Row row{Suite::scaling, scene.name, Method::preparation, Axis::faces, double(cage.faceCount()), {}};

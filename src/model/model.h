@@ -44,10 +44,10 @@ struct PointSets {
 
 struct SurfaceModelDesc {
     const Surface* surface = nullptr;
-    std::span<const vec3> cagePositions; ///< one per vertex of the cage
-    const HeightMap* height = nullptr;   ///< null: the limit surface itself
+    std::span<const vec3> cagePositions;   ///< one per vertex of the cage
+    const HeightMap* height = nullptr;     ///< null: the limit surface itself
     const MapEncoding* encoding = nullptr; ///< of the height map; null: 32-bit floats
-    const Image* albedo = nullptr;       ///< 3 or more channels, sRGB-encoded values 0..1
+    const Image* albedo = nullptr;         ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
 /// A displaced subdivision surface. What its description points to may go away afterwards.
@@ -72,10 +72,10 @@ struct SurfaceModel {
     std::vector<bool> edgeIsHalf;           ///< per edge: half of a cage edge beside an n-gon, or as long as one
     std::vector<bool> patchIsRegular;       ///< per patch: its points and its texture coordinates are bicubic
     HeightPyramid heightPyramid;
-    std::vector<TexBox> faceTexBoxes;       ///< texture coordinates of faces
-    std::vector<Bounds> faceBounds;         ///< boxes around faces displaced by level 0 of the map; empty ones for holes
-    std::vector<float> faceHeightBounds;    ///< largest |h| on each face in level 0 of the map, cage units
-    std::vector<FaceNormals> faceNormals;   ///< what bounds of normals are made of for other levels; empty as these
+    std::vector<TexBox> faceTexBoxes;     ///< texture coordinates of faces
+    std::vector<Bounds> faceBounds;       ///< boxes around faces displaced by level 0 of the map; empty ones for holes
+    std::vector<float> faceHeightBounds;  ///< largest |h| on each face in level 0 of the map, cage units
+    std::vector<FaceNormals> faceNormals; ///< what bounds of normals are made of for other levels; empty as these
     std::vector<NormalBounds> normalBounds; ///< of displaced faces; empty unless the surface is closed and oriented
     int sideCount = 4;                      ///< of all faces: 4, or 3 of Loop surfaces
     bool hasTexCoords = false;

@@ -75,7 +75,8 @@ FaceSupports::FaceSupports(const Surface& surface) {
 
 /// A point sum_i w_i p_i with sum_i w_i = 1 is at most sum_i |w_i| half boxes away from the middle of the box of all
 /// p_i.
-std::vector<Bounds> FaceSupports::bounds(std::span<const vec3> cagePositions, std::span<const float> heightBounds) const {
+std::vector<Bounds> FaceSupports::bounds(std::span<const vec3> cagePositions,
+                                         std::span<const float> heightBounds) const {
     std::vector<Bounds> all(spreads_.size());
     for (std::size_t face = 0; face < all.size(); ++face) {
         if (firsts_[face] == firsts_[face + 1]) continue;

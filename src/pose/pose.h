@@ -38,7 +38,8 @@ public:
     explicit FaceSupports(const Surface& surface);
 
     /// `heightBounds`: the largest height of each face (SurfaceModel::faceHeightBounds). Boxes of holes are empty.
-    [[nodiscard]] std::vector<Bounds> bounds(std::span<const vec3> cagePositions, std::span<const float> heightBounds) const;
+    [[nodiscard]] std::vector<Bounds> bounds(std::span<const vec3> cagePositions,
+                                             std::span<const float> heightBounds) const;
 
 private:
     std::vector<std::uint32_t> firsts_; ///< into points_, one more at the end

@@ -73,10 +73,10 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
 
     PointSets sets;
     sets.table = makeTexels(device,
-                             {.name = "posed points",
-                              .bytes = std::uint64_t(setCount) * setSize * sizeof(vec4),
-                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
-                             VK_FORMAT_R32G32B32A32_SFLOAT);
+                            {.name = "posed points",
+                             .bytes = std::uint64_t(setCount) * setSize * sizeof(vec4),
+                             .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+                            VK_FORMAT_R32G32B32A32_SFLOAT);
     sets.before = setFirsts.back();
     if (stretches) sets.rest = (setCount - 1) * setSize;
     push.target = sets.table.buffer.address;
@@ -230,7 +230,8 @@ void Poser::pose(const Pose& now, const Pose* before) {
 
     std::vector<float> heightBounds = parts.model.faceHeightBounds;
     for (float& reach : heightBounds) reach *= parts.mostStretch;
-    std::vector<Bounds> boxes = parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
+    std::vector<Bounds> boxes =
+        parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
     parts.bounds = {};
     for (const Bounds& box : boxes) {
         if (box.isEmpty()) continue;

@@ -39,7 +39,8 @@ EdgeIncidences edgeIncidences(std::span<const Face> faces, int sideCount, std::s
     std::partial_sum(result.firsts.begin(), result.firsts.end(), result.firsts.begin());
     result.incidences.resize(result.firsts.back());
     std::vector<std::uint32_t> next(result.firsts.begin(), result.firsts.end() - 1);
-    visitSides(faces, sideCount, [&](std::uint32_t edge, const Incidence& incidence) { result.incidences[next[edge]++] = incidence; });
+    visitSides(faces, sideCount,
+               [&](std::uint32_t edge, const Incidence& incidence) { result.incidences[next[edge]++] = incidence; });
     return result;
 }
 

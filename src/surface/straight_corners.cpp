@@ -160,7 +160,8 @@ private:
     }
 
     /// Appends the two points whose directions from the corner span the tangent plane there.
-    void addCorner(Patch& patch, const PointIndices& indices, int corner, CornerKind kind, std::vector<std::uint32_t>& points) {
+    void addCorner(Patch& patch, const PointIndices& indices, int corner, CornerKind kind,
+                   std::vector<std::uint32_t>& points) {
         patch.straightCorners |= 1u << corner;
         const CornerDirections at = directionsAt(surface_.sideCount, corner);
         const PatchWeights weights = patch.type == kPatchGregory ? gregoryQuadWeights(at.uv.x, at.uv.y)

@@ -75,7 +75,7 @@ dvec2 sidePoint(int sideCount, int side, double x);
 /// All faces along every edge, of smooth edges too (Surface::incidences lists only where normals must be agreed).
 struct EdgeIncidences {
     std::vector<std::uint32_t> firsts; ///< edgeCount + 1 entries into incidences
-    std::vector<Incidence> incidences;        ///< of each edge in index order of the faces: the owner comes first
+    std::vector<Incidence> incidences; ///< of each edge in index order of the faces: the owner comes first
 
     [[nodiscard]] std::span<const Incidence> of(std::size_t edge) const {
         return std::span(incidences).subspan(firsts[edge], firsts[edge + 1] - firsts[edge]);

@@ -127,7 +127,8 @@ std::uint64_t tessellatedTriangles(std::span<const std::uint32_t> r) {
     return sum + 3 * (n - 2) + evenTriangle(n - 2);
 }
 
-std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view, const EdgeRates& rates) {
+std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view,
+                               const EdgeRates& rates) {
     // Lookups in coarse mip levels read farther than those that the model's boxes hold.
     const std::vector<Bounds> boxes = boundsOfLevels(model, rates);
 

@@ -73,7 +73,7 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceM
     PassBindings bindings = resources.bindings();
     describe(model, inputs, bindings);
     inputs.targets.edges = out.address;
-    if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights] = *what.edgeHeights.binding();
+    if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights] = what.edgeHeights->binding();
     ShaderConstants constants = constantsOf(model, NormalKind::limit);
     constants.wantsTexCoords = what.floatCount > 1;
     const Pipeline& pipeline = stages.pipeline(what.file, model, constants);

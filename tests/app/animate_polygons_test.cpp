@@ -76,7 +76,7 @@ TEST_F(AnimatePolygons, haveNoLayerOfMotion) {
         Failure::usage, {"plain polygons", "--scheme"});
 }
 
-TEST_F(AnimatePolygons, sayAWarningOnce) {
+TEST_F(AnimatePolygons, printAWarningOnce) {
     GltfFile file = turningSquare(true);
     file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
     putFile(folder_ / "a.glb", file.glb());

@@ -176,7 +176,7 @@ TEST_F(Animate, leavesOnlyWholeFramesWhenInterruptedAndGoesOn) {
     EXPECT_EQ(folder_.fileCount(), count + 1);
 }
 
-TEST_F(Animate, tellsHowFastItGoes) {
+TEST_F(Animate, reportsFramesPerSecondAndTheTimeLeft) {
     const Outcome outcome = relief(twist("0:1", "f.{frame}.png"), "--progress always");
     EXPECT_TRUE(contains(outcome.err, "frames/s")) << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "left")) << outcome.err;
@@ -198,7 +198,7 @@ TEST_F(Animate, makesClips) {
     EXPECT_EQ(folder_.fileCount(), magics.size());
 }
 
-TEST_F(Animate, saysWhatIsMissingWithoutFfmpeg) {
+TEST_F(Animate, namesFfmpegWhereItIsMissing) {
     const std::string path = std::getenv("PATH");
     setenv("PATH", "/nowhere", 1);
     const Outcome outcome = relief(twist("0:2", "a.mp4"));
@@ -209,7 +209,7 @@ TEST_F(Animate, saysWhatIsMissingWithoutFfmpeg) {
 
 // --- refusals ------------------------------------------------------------------------------------------------------
 
-TEST_F(Animate, refusesWordsThatMakeNoSense) {
+TEST_F(Animate, refusesOptionsThatMakeNoSense) {
     const auto refuse = [&](const Words& more, const Words& parts) {
         expectRefused(relief(with(more)), Failure::usage, parts);
     };

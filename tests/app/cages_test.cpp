@@ -146,7 +146,7 @@ TEST_F(OddCages, thatAreUnweldedAreWarnedOfUntilTheyAreWelded) {
     for (const nlohmann::json& path : certificate.at("paths")) EXPECT_EQ(path.at("boundary_segments"), 0);
 }
 
-TEST_F(OddCages, tellHowManyOfTheirVerticesCoincide) {
+TEST_F(OddCages, reportHowManyOfTheirVerticesCoincide) {
     putFile(cage_, unweldedCube());
     const auto before = jsonOf(relief({"info", cage_, "--json"}))[0];
     EXPECT_EQ(before.at("coincident_boundary_vertices"), 16);
@@ -173,7 +173,7 @@ TEST_F(OddCages, weldWithinADistanceInCageUnitsOrOfTheDiagonal) {
     EXPECT_GT(vertices("0.1%"), 8);
 }
 
-TEST_F(OddCages, areNotWeldedOverDistancesThatAreNone) {
+TEST_F(OddCages, areNotWeldedOverInvalidDistances) {
     putFile(cage_, unweldedCube());
     for (const char* distance : {"-1", "-1%", "inf", "1e999"})
         expectRefused(relief({"info", cage_, "--weld", distance}), Failure::usage, {"no distance"});

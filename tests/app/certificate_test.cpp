@@ -119,7 +119,7 @@ TEST(Certificate, isBrokenByANormalThatTurnsInACorner) {
     expectBroken(c, {"normal at face 3 (1, 0)", "90 degrees"});
 }
 
-TEST(Certificate, tellsAllThatIsBroken) {
+TEST(Certificate, listsAllBrokenPromises) {
     Certificate c = soundCertificate();
     c.paths.push_back(c.paths[0]);
     c.paths[1].path = "dice";

@@ -38,10 +38,10 @@ protected:
     }
 };
 
-TEST_F(Empty, saysThatAllPointsLieAtOnePlace) {
+TEST_F(Empty, saysThatAllPointsCoincide) {
     const std::string cage = putCube([](const dvec3&) { return dvec3(1, 2, 3); });
-    expectReason(render(cage), {cage, "at one place (1, 2, 3)"});
-    expectReason(render(cage, "--scheme none"), {"at one place (1, 2, 3)"});
+    expectReason(render(cage), {cage, "coincide at (1, 2, 3)"});
+    expectReason(render(cage, "--scheme none"), {"coincide at (1, 2, 3)"});
     EXPECT_EQ(render(cage, "-q").err, "");
 }
 
@@ -63,7 +63,7 @@ TEST_F(Empty, saysThatASheetIsSeenFromItsEdge) {
     expectReason(render(cagePath("plane"), "--azimuth 0 --elevation 0"), {"edge"});
 }
 
-TEST_F(Empty, saysThatHeightsReachTooFar) {
+TEST_F(Empty, saysThatHeightsAreTooLarge) {
     writeImage(folder_ / "waves.exr", sineImage(32, 2), SampleType::real);
     const Outcome outcome = render(cagePath("torus"), "--scale 1e30 --height " + folder_ / "waves.exr");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
@@ -71,7 +71,7 @@ TEST_F(Empty, saysThatHeightsReachTooFar) {
     EXPECT_TRUE(contains(outcome.err, "lower --scale")) << outcome.err;
 }
 
-TEST_F(Empty, isNotSaidOfPictures) {
+TEST_F(Empty, isNotReportedWhereSomethingIsSeen) {
     for (const char* name : {"cube", "torus", "plane"})
         EXPECT_FALSE(contains(render(cagePath(name)).err, "warning")) << name;
     for (const char* angle : {"30", "-30"}) // cubes of one pixel and some
@@ -80,12 +80,12 @@ TEST_F(Empty, isNotSaidOfPictures) {
     EXPECT_FALSE(contains(render(putCube([](const dvec3& p) { return 1e-15 * p; })).err, "warning"));
 }
 
-TEST_F(Empty, framesOfAClipAreToldOnceWithTheFirst) {
+TEST_F(Empty, isReportedOncePerClipWithTheFirstFrame) {
     const Outcome outcome = relief({"animate", cagePath("cube"), "--deform",
                                     "scale(x=max(0,1-t), y=max(0,1-t), z=max(0,1-t))", "-o", folder_ / "f.{frame}.png"},
                                    "--size 64,64 --rate 4 --fps 2 --frames 0:5");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    const std::string mark = "frame 2: there is nothing to see: all of its points lie at one place";
+    const std::string mark = "frame 2: there is nothing to see: all of its points coincide";
     EXPECT_TRUE(contains(outcome.err, mark)) << outcome.err;
     const std::size_t first = outcome.err.find("nothing to see");
     EXPECT_EQ(outcome.err.find("nothing to see", first + 1), std::string::npos) << outcome.err;

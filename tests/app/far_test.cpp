@@ -135,7 +135,8 @@ TEST_F(Far, theCertificateHasTheUnitsOfTheWorld) {
     const nlohmann::json usual = certify(1), large = certify(std::ldexp(1.0, 40));
     const double scale = std::ldexp(1.0, 40);
     EXPECT_NEAR(large.at("diagonal").get<double>() / scale, usual.at("diagonal").get<double>(), 1e-6);
-    EXPECT_NEAR(large.at("reach").get<double>() / scale, usual.at("reach").get<double>(), 1e-9);
+    EXPECT_NEAR(large.at("displacement_bound").get<double>() / scale, usual.at("displacement_bound").get<double>(),
+                1e-9);
     EXPECT_NEAR(large.at("curvature").at("area").get<double>() / (scale * scale),
                 usual.at("curvature").at("area").get<double>(), 1e-4);
 }

@@ -90,10 +90,11 @@ TEST(Info, ofACageAndItsMapSaysHowFarSeamsDisagree) {
     const nlohmann::json cube = jsonOf(relief(words, "--scale 0.2 --json")).at(0);
     EXPECT_EQ(cube.at("kind"), "cage");
     EXPECT_EQ(cube.at("map"), folder / "halves.exr");
-    EXPECT_NEAR(cube.at("map_reach"), 0.15, 1e-7);
+    EXPECT_NEAR(cube.at("displacement_bound"), 0.15, 1e-7);
     EXPECT_NEAR(cube.at("seam_disagreement_max"), 0.1, 1e-7);
-    EXPECT_NEAR(cube.at("seam_max_of_reach"), 2.0 / 3, 1e-6);
-    EXPECT_NEAR(cube.at("seam_mean_of_reach").get<double>() * 0.15, cube.at("seam_disagreement_mean"), 1e-9);
+    EXPECT_NEAR(cube.at("seam_max_of_displacement_bound"), 2.0 / 3, 1e-6);
+    EXPECT_NEAR(cube.at("seam_mean_of_displacement_bound").get<double>() * 0.15, cube.at("seam_disagreement_mean"),
+                1e-9);
     EXPECT_GT(cube.at("seam_disagreement_mean"), 0.1 * 4 / 12 - 1e-6) << "4 of at most 12 seams";
     EXPECT_EQ(cube.at("seam_disagreement_at").at("face"), 0);
 
@@ -135,6 +136,21 @@ TEST(Info, ofDevicesNamesThoseThatRenderUses) {
     const std::string text = relief({"info", "--devices"}).out;
     EXPECT_TRUE(text.starts_with(list[0].at("device").get<std::string>() + "\n")) << text;
     EXPECT_TRUE(contains(text, "\n  driver ")) << text;
+}
+
+TEST(Info, ofDevicesSaysWhichPathIsTheDefaultAndWhatIsMissing) {
+    const nlohmann::json list = jsonOf(relief({"info", "--devices", "--json"}));
+    ASSERT_FALSE(list.empty());
+    for (const nlohmann::json& device : list) {
+        const bool hasTessellation = device.at("tessellation_shaders");
+        EXPECT_EQ(device.at("default_path"), hasTessellation ? "tessellation" : "grid") << device;
+        EXPECT_TRUE(contains(device.at("default_path_reason"), "tessellation shaders")) << device;
+        EXPECT_TRUE(contains(device.at("reads_tables_as"), "elements")) << device;
+        const std::string limits = device.at("limits").dump();
+        EXPECT_EQ(contains(limits, "--path tessellation is refused"), !hasTessellation) << device;
+        EXPECT_EQ(contains(limits, "--show wireframe is refused"), !device.at("wireframe")) << device;
+    }
+    EXPECT_TRUE(contains(relief({"info", "--devices"}).out, "\n  default path   ")) << "as text too";
 }
 
 TEST(Info, printsWarningsUnlessQuiet) {

@@ -80,7 +80,7 @@ TEST(Inputs, environmentsAreTwiceAsWideAsHigh) {
                     {folder / "sky.exr", "twice as wide as high", "17 x 8"});
 }
 
-TEST(Inputs, withNumbersThatAreNoneNameTheTexel) {
+TEST(Inputs, withNonFiniteTexelsNameTheTexel) {
     const TemporaryFolder folder;
     Image image = sineImage(16, 1);
     *image.at(3, 2) = std::numeric_limits<float>::quiet_NaN();
@@ -108,7 +108,7 @@ TEST(Outputs, thatCannotBeWrittenExitWith4AndLeaveNothing) {
 }
 
 // Nobody waits for a result that has nowhere to go: the output is tried before any input is read.
-TEST(Outputs, thatCannotBeWrittenAreSaidFirst) {
+TEST(Outputs, thatCannotBeWrittenAreReportedFirst) {
     const TemporaryFolder folder;
     const auto refuse = [&](Words words, const std::string& target) {
         words.insert(words.end(), {"none.obj", "-o", target});

@@ -153,7 +153,7 @@ TEST(FullDisks, endClipsWith4AndLeaveNothing) {
 
 // --- memory and threads that run out -------------------------------------------------------------------------------
 
-TEST(Memory, thatIsNotToBeHadExitsWith5AndSaysHowMuch) {
+TEST(Memory, thatCannotBeAllocatedExitsWith5AndNamesTheSize) {
     if (!kLimitsMemory) GTEST_SKIP() << "the sanitizer has its own memory";
     const TemporaryFolder folder;
     putFile(folder / "large.json", "");

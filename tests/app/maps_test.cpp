@@ -40,7 +40,7 @@ struct Maps : testing::Test {
     }
 };
 
-TEST_F(Maps, thatRepeatUnaskedAreSaidOnce) {
+TEST_F(Maps, thatRepeatUnaskedAreWarnedOfOnce) {
     const std::string lines = warningsOf("tiled.obj", {"--height", folder / "h.exr"});
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1) << lines;
     EXPECT_TRUE(contains(lines, "from (0, 0) to (10, 1)")) << lines;
@@ -51,7 +51,7 @@ TEST_F(Maps, thatRepeatUnaskedAreSaidOnce) {
     EXPECT_EQ(warningsOf("tiled.obj", {}), "") << "no map";
 }
 
-TEST_F(Maps, ofColorThatRepeatUnaskedAreSaidOnce) {
+TEST_F(Maps, ofColorThatRepeatUnaskedAreWarnedOfOnce) {
     writeImage(folder / "c.png", {2, 1, 3, std::vector<float>(6, 0.5f)}, SampleType::uint8);
     const Words both{"--albedo", folder / "c.png", "--height", folder / "h.exr"};
     const std::string lines = warningsOf("tiled.obj", {"--albedo", folder / "c.png"});
@@ -85,7 +85,7 @@ TEST_F(Maps, withVoidsShowTheirHeights) {
     EXPECT_TRUE(contains(text, "Y count 1, value -9999 by its GDAL_NODATA")) << text;
 }
 
-TEST_F(Maps, infoSaysWhereTexelsAreNoNumbers) {
+TEST_F(Maps, infoReportsWhereTexelsAreNotFinite) {
     Image image = sineImage(16, 1);
     *image.at(3, 2) = std::numeric_limits<float>::quiet_NaN();
     *image.at(5, 9) = std::numeric_limits<float>::infinity();
@@ -107,7 +107,7 @@ TEST_F(Maps, infoNamesLayers) {
                   Failure::input, {"l.exr", "depth", "height.Y"});
 }
 
-TEST_F(Maps, ofColorsThatAreNoNumbersNameTheTexel) {
+TEST_F(Maps, ofNonFiniteColorsNameTheTexel) {
     Image image{8, 8, 3, std::vector<float>(8 * 8 * 3, 0.5f)};
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         image.at(5, 6)[1] = bad;
@@ -177,7 +177,7 @@ TEST_F(Maps, ofHugeHeightsAreLit) {
         }
 }
 
-TEST(Numbers, thatAreNoneAreRefusedByEveryVerb) {
+TEST(Numbers, thatAreNotFiniteAreRefusedByEveryVerb) {
     const std::string cube = cagePath("cube");
     const std::pair<Words, const char*> cases[] = {
         {{"bench", "--compare", "a.json", "b.json", "--tolerance", "nan"}, "--tolerance"},

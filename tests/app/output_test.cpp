@@ -4,13 +4,13 @@
 namespace relief::test {
 namespace {
 
-class Said : public ::testing::Test {
+class Printed : public ::testing::Test {
 protected:
     TemporaryFolder folder_;
     Words render_ = {"render", cagePath("cube"), "--size", "64,64", "--rate", "4", "-o", folder_ / "a.png"};
 };
 
-TEST_F(Said, aRenderSaysOneLineOnStderr) {
+TEST_F(Printed, isOneLineOnStderrPerRender) {
     const Outcome outcome = relief(render_);
     expectDone(outcome);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
@@ -18,7 +18,7 @@ TEST_F(Said, aRenderSaysOneLineOnStderr) {
     EXPECT_TRUE(contains(outcome.err, "triangles")) << outcome.err;
 }
 
-TEST_F(Said, jsonCountsWhatWasDrawn) {
+TEST_F(Printed, countsInJsonWhatWasDrawn) {
     const nlohmann::json json = jsonOf(relief(render_, "--json --path grid"));
     EXPECT_EQ(json.at("picture"), folder_ / "a.png");
     EXPECT_EQ(json.at("faces"), 6);
@@ -33,13 +33,13 @@ TEST_F(Said, jsonCountsWhatWasDrawn) {
         EXPECT_TRUE(json.at(key).is_number()) << key;
 }
 
-TEST_F(Said, jsonKnowsTheMap) {
+TEST_F(Printed, describesTheMapInJson) {
     writeImage(folder_ / "h.exr", sineImage(16, 1), SampleType::real);
     const nlohmann::json json = jsonOf(relief(render_, "--json --scale 0.1 --height " + folder_ / "h.exr"));
     EXPECT_EQ(json.at("map_bytes"), (16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * 4); // with its mips
 }
 
-TEST_F(Said, nothingWithQuiet) {
+TEST_F(Printed, isNothingWithQuiet) {
     writeImage(folder_ / "eight.png", sineImage(16, 1), SampleType::uint8);
     const std::string map = "--scale 0.1 --height " + folder_ / "eight.png";
     const Outcome loud = relief(render_, map);
@@ -54,14 +54,14 @@ TEST_F(Said, nothingWithQuiet) {
     EXPECT_EQ(sample.err, "");
 }
 
-TEST_F(Said, timesOfEveryStepWithVerbose) {
+TEST_F(Printed, hasTheTimeOfEveryStepWithVerbose) {
     const Outcome outcome = relief(render_, "-v");
     expectDone(outcome);
     for (const char* step : {"load", "surface", "shadow", "color", "draws"})
         EXPECT_TRUE(contains(outcome.err, step)) << outcome.err;
 }
 
-TEST_F(Said, progressOnlyWhereItIsWanted) {
+TEST_F(Printed, hasProgressOnlyWhereItIsAskedFor) {
     EXPECT_FALSE(contains(relief(render_).err, "%")); // stderr is no terminal here
     EXPECT_TRUE(contains(relief(render_, "--progress always").err, "100 %"));
     EXPECT_FALSE(contains(relief(render_, "--progress never").err, "%"));

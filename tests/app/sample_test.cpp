@@ -91,7 +91,7 @@ TEST_F(Sampled, theBallsVerticesLieOnTheUnitSphere) {
     }
 }
 
-TEST_F(Sampled, theNormalAskedForIsTheOneGiven) {
+TEST_F(Sampled, givesTheKindOfNormalThatIsAskedFor) {
     writeImage(folder_ / "h.exr", sineImage(32, 2), SampleType::real);
     const std::string map = "--scale 0.1 --height " + folder_ / "h.exr";
     const std::string point = "17,0.3,0.4\n";

@@ -1,10 +1,10 @@
-// What is said to someone who asks for help or mistypes.
+// Answers to those who ask for help or mistype.
 #include "program.h"
 
 namespace relief::test {
 namespace {
 
-const Words kVerbs = {"render", "export", "sample", "check", "info"};
+const Words kVerbs = {"render", "animate", "export", "sample", "check", "info"};
 
 TEST(Help, ofEveryVerbShowsExamples) {
     for (const std::string& verb : kVerbs) {
@@ -23,7 +23,7 @@ TEST(Help, listsVerbsAndExitCodes) {
     EXPECT_TRUE(contains(outcome.out, "exit codes: 0 done"));
 }
 
-// An option that is parsed but described nowhere would be a secret; these are the words that DESIGN promises.
+// An option that is parsed but described nowhere would be a secret.
 TEST(Help, namesEveryOption) {
     const std::string render = relief({"render", "--help"}).out;
     for (const char* option :
@@ -52,6 +52,39 @@ TEST(Usage, unknownWordsAreAnsweredWithTheNearestOne) {
         {"info --device", "did you mean --devices?"},
     };
     for (const auto& [line, answer] : cases) expectRefused(relief({}, line), Failure::usage, {answer});
+}
+
+TEST(Usage, unknownValuesAreAnsweredWithAllAndTheNearestOne) {
+    const std::pair<const char*, const char*> cases[] = {{"--scheme catmrak", "did you mean catmark?"},
+                                                         {"--path grids", "did you mean grid?"},
+                                                         {"--spacing fractionl", "did you mean fractional?"},
+                                                         {"--normal firstorder", "did you mean first-order?"},
+                                                         {"--show wirefame", "did you mean wireframe?"},
+                                                         {"--map-format unorm61", "did you mean unorm16?"},
+                                                         {"--wrap clmap", "did you mean clamp?"},
+                                                         {"--layers dpeth,uv", "did you mean depth?"},
+                                                         {"--height-space strech", "did you mean stretch?"},
+                                                         {"--interpolation liner", "did you mean linear?"},
+                                                         {"--progress nevr", "did you mean never?"},
+                                                         {"--scheme x", "catmark, loop, bilinear, none"},
+                                                         {"--map-format x", "auto, float, half, unorm16, unorm8, bc4"}};
+    for (const auto& [line, answer] : cases)
+        expectRefused(relief({"render", cagePath("cube"), "-o", "never.png"}, line), Failure::usage, {answer});
+}
+
+TEST(Help, explainsEachValueOnALineOfItsOwn) {
+    const std::string help = relief({"render", "--help"}).out;
+    for (const char* line : {" dice: once per picture", " grid: by the vertex shader", " bc4: 4 bits per texel"})
+        EXPECT_TRUE(contains(help, line)) << line;
+    for (const char* text : {"(default: 1024,1024)", "(default: equal)", "(default: auto)", "(default: 2)"})
+        EXPECT_TRUE(contains(help, text)) << text;
+}
+
+TEST(Help, fitsAScreenOf120Columns) {
+    for (const std::string& verb : kVerbs) {
+        std::istringstream help(relief({verb, "--help"}).out);
+        for (std::string line; std::getline(help, line);) EXPECT_LE(line.size(), 120u) << verb << ": " << line;
+    }
 }
 
 TEST(Usage, withoutAVerbNamesThem) {
@@ -101,7 +134,7 @@ TEST(Usage, wrongOptionsAreOneLineWithTheOption) {
         expectRefused(relief({"render", cagePath("cube"), "-o", "never.png"}, line), Failure::usage, {word});
 }
 
-TEST(Usage, numbersThatAreNoneAreRefused) {
+TEST(Usage, nonFiniteNumbersAreRefused) {
     const std::pair<const char*, const char*> cases[] = {
         {"--edge-pixels", "nan"}, {"--scale", "inf"},       {"--mid", "-nan"},   {"--azimuth", "1e999"},
         {"--elevation", "nan"},   {"--distance", "inf"},    {"--fov", "thirty"}, {"--roughness", "nan"},
@@ -110,7 +143,7 @@ TEST(Usage, numbersThatAreNoneAreRefused) {
         expectRefused(relief({"render", cagePath("cube"), "-o", "never.png", option, value}), Failure::usage, {option});
 }
 
-TEST(Usage, optionsGivenTwiceAreSaidToBe) {
+TEST(Usage, optionsGivenTwiceAreNamed) {
     const std::pair<const char*, const char*> cases[] = {
         {"--rate 4 --rate 5", "--rate is given twice"},
         {"--rate=4 --rate 5 --rate 6", "--rate is given twice"},

@@ -1,0 +1,118 @@
+#include "app/object_options.h"
+
+#include "app/options.h"
+#include "app/units.h"
+
+namespace relief::app {
+namespace {
+
+CLI::Validator notNegative() {
+    const auto check = [](const std::string& word) {
+        return word.starts_with('-') ? fmt::format("{} is no channel; they count from 0", word) : std::string();
+    };
+    return {check, ""};
+}
+
+void addWeld(CLI::App& app, std::optional<Distance>& weld) {
+    const auto set = [&weld](const std::string& word) { weld = parseDistance(word); };
+    CLI::Option* option = app.add_option_function<std::string>(
+        "--weld", set,
+        "join boundary vertices that are at the same position, or at most this far apart: cage units, or a percentage "
+        "of the diagonal of the cage's bounding box such as 0.01% (0 where the distance is omitted)");
+    listIn("surface", "[DISTANCE]", option->check(distanceFromZero()));
+}
+
+void addHeights(CLI::App& app, HeightDesc& height) {
+    const char* group = "height";
+    listIn(group, "MAP", app.add_option("--height", height.path, "height map: .exr .tif .png .hdr .jpg"));
+    listIn(group, "S",
+           app.add_option("--scale", height.scale, "cage units per unit of stored height (default: 1)")
+               ->check(anyCoordinate()));
+    listIn(group, "M",
+           app.add_option("--mid", height.mid,
+                          "stored height that displaces nothing (default: 0.5 for unsigned integers, which are read "
+                          "as 0..1, else 0)")
+               ->check(anyNumber()));
+    listIn(group, "C",
+           app.add_option("--channel", height.channel,
+                          "channel or layer of the map, by its name or by its number from 0 (default: 0)")
+               ->check(notNegative()));
+    listIn(group, "WRAP",
+           addEnum(app, "--wrap", height.wrap, kWraps,
+                   "what lies outside of the map (default: repeat, with a warning where that shows)"));
+    listIn(group, "FORMAT",
+           addEnum(app, "--map-format", height.format, kMapFormatChoices, "how the map is stored on the device"));
+}
+
+void addMotion(CLI::App& app, MotionDesc& motion) {
+    const char* group = "pose";
+    // Where positions come from: a cache or a skin, and deformers after either.
+    CLI::Option* cache =
+        app.add_option("--cache", motion.cachePath,
+                       "point cache with positions of the cage: .pc2 or .mdd, or a sequence 'name.{frame:4}.obj'");
+    listIn(group, "FILE", cache);
+    CLI::Option* skin = app.add_option("--skin", motion.skinPath,
+                                       "glTF file (.gltf .glb) whose skin, morph targets and nodes move the cage");
+    listIn(group, "FILE", skin->excludes(cache));
+    listIn(group, "NAME",
+           app.add_option("--clip", motion.skin.clip,
+                          "animation of the glTF file, by its name or its number from 0 (default: the first)")
+               ->needs(skin));
+    app.add_flag("--bind-nearest", motion.skin.bindsNearest,
+                 "bind cage points to the nearest vertex of the skin, however far it is")
+        ->needs(skin)
+        ->group(group);
+    listIn(group, "EXPRESSION",
+           app.add_option("--deform", motion.deformers,
+                          "deformers over the time t in seconds, such as \"twist(axis=y, angle=90*sin(t))\"; relief "
+                          "animate --help lists them"));
+    // How times are read.
+    listIn(group, "HOW",
+           addEnum(app, "--interpolation", motion.cache.interpolation, kInterpolations,
+                   "positions between the keys of a cache"));
+    app.add_flag("--cache-frames", motion.cache.countsFrames,
+                 "key k of a .pc2 or .mdd, from 0, is frame k; the times in the file are ignored")
+        ->needs(cache)
+        ->group(group);
+    listIn(group, "FPS",
+           app.add_option("--fps", motion.cache.fps, fmt::format("frames per second (default: {})", motion.cache.fps))
+               ->check(numberIn(1e-3, 1e4)));
+}
+
+} // namespace
+
+void addObject(CLI::App& app, ObjectDesc& object) {
+    app.add_option("cage", object.cage, "control cage, or mesh of triangles: .obj .gltf .glb")
+        ->required()
+        ->option_text("CAGE");
+    addSurfaceOptions(app, object);
+    addMotion(app, object.motion);
+}
+
+void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
+    listIn("surface", "SCHEME",
+           addEnum(app, "--scheme", object.subdivision, kSubdivisions,
+                   "how the cage is subdivided (default: none where all faces are triangles, else catmark)"));
+    listIn("surface", "N",
+           app.add_option("--isolation", object.isolation,
+                          fmt::format("levels of refinement around extraordinary vertices and creases, 0..10 "
+                                      "(default: {})",
+                                      object.isolation))
+               ->check(CLI::Range(0, 10)));
+    addWeld(app, object.weld);
+    addHeights(app, object.height);
+}
+
+void addTime(CLI::App& app, MotionDesc& motion) {
+    listIn("pose", "T",
+           app.add_option("--time", motion.time,
+                          "time in seconds of the pose by --cache, --skin or --deform "
+                          "(default: 0)")
+               ->check(anyNumber()));
+}
+
+void addHeightSpace(CLI::App& app, HeightSpace& space) {
+    listIn("height", "SPACE", addEnum(app, "--height-space", space, kHeightSpaces, "heights on a cage that moves"));
+}
+
+} // namespace relief::app

@@ -1,0 +1,19 @@
+// The options that say which object there is: cage, scheme, height map, what moves it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "scene/scene.h"
+
+namespace relief::app {
+
+/// Adds the cage as a positional, and all options of its surface, height map and motion.
+void addObject(CLI::App& app, ObjectDesc& object);
+/// Adds the options of a surface and its height map alone.
+void addSurfaceOptions(CLI::App& app, ObjectDesc& object);
+/// Adds --time, for verbs that take one pose of an object that moves.
+void addTime(CLI::App& app, MotionDesc& motion);
+/// Adds --height-space, for verbs that show an object that moves.
+void addHeightSpace(CLI::App& app, HeightSpace& space);
+
+} // namespace relief::app

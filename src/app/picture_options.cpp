@@ -1,0 +1,181 @@
+#include "app/picture_options.h"
+
+#include <algorithm>
+
+#include "app/object_options.h"
+#include "app/options.h"
+#include "app/units.h"
+
+namespace relief::app {
+namespace {
+
+constexpr const char* kAllLayers = "all";
+
+void addLayers(CLI::App& app, std::vector<Layer>& layers) {
+    std::vector<WordHelp> words = listWords(kLayers);
+    words.push_back({kAllLayers, "all of these"});
+    const auto set = [&layers](const std::vector<std::string>& names) {
+        const auto isNamed = [&](const char* word) { return std::ranges::find(names, word) != names.end(); };
+        layers.clear();
+        for (const Word<Layer>& row : kLayers)
+            if (isNamed(row.word) || isNamed(kAllLayers)) layers.push_back(row.value);
+    };
+    CLI::Option* option = app.add_option_function<std::vector<std::string>>(
+        "--layers", set,
+        describeWords("further channels of an .exr, with commas between them: values at pixel centres", words));
+    listIn("shading", "LAYERS", option->delimiter(',')->check(oneOf(words)));
+}
+
+void addMaterial(CLI::App& app, MaterialDesc& material) {
+    const char* group = "shading";
+    const vec3 color = Material().albedo;
+    listIn(group, "MAP", app.add_option("--albedo", material.albedo, "color map (sRGB)"));
+    listIn(
+        group, "R,G,B",
+        addVector<vec3>(app, "--color", material.color,
+                        fmt::format("linear albedo 0..1, multiplied by the color map (default: {:.2f},{:.2f},{:.2f}, "
+                                    "or 1,1,1 with a map)",
+                                    color.x, color.y, color.z))
+            ->check(numberIn(0, 1)));
+    listIn(group, "R",
+           app.add_option("--roughness", material.roughness,
+                          fmt::format("roughness of the surface, 0.05..1 (default: {:.2g})", material.roughness))
+               ->check(numberIn(0.05, 1)));
+}
+
+void addLighting(CLI::App& app, LightingDesc& lighting) {
+    const char* group = "shading";
+    listIn(group, "HDR",
+           app.add_option("--environment", lighting.environment,
+                          "environment light, an equirectangular picture: .hdr .exr (default: a neutral studio)"));
+    listIn(group, "AZ,EL",
+           addVector<dvec2>(app, "--light", lighting.key,
+                            fmt::format("azimuth and elevation of the key light in degrees (default: {} from the "
+                                        "camera's azimuth, {})",
+                                        Lighting().keyAzimuth - CameraOptions().azimuth, Lighting().keyElevation))
+               ->check(anyNumber()));
+    const auto setShadows = [&lighting](std::int64_t) { lighting.castsShadows = false; };
+    app.add_flag_function("--no-shadows", setShadows, "the key light casts no shadows")->group(group);
+}
+
+void addBackground(CLI::App& app, Finish& finish) {
+    const char* group = "shading";
+    const auto setColor = [&finish](const std::vector<double>& rgb) {
+        finish = {.background = Background::color, .color = vec3(rgb[0], rgb[1], rgb[2])};
+    };
+    CLI::Option* color = app.add_option_function<std::vector<double>>(
+        "--background", setColor, "sRGB color 0..1 of the background of a .png or clip (default: a grey studio)");
+    color->delimiter(',')->expected(3)->allow_extra_args(false)->check(numberIn(0, 1));
+    listIn(group, "R,G,B", color);
+    const auto setTransparent = [&finish](std::int64_t) { finish.background = Background::transparent; };
+    app.add_flag_function("--transparent", setTransparent, "transparent background of a .png")
+        ->excludes(color)
+        ->group(group);
+}
+
+} // namespace
+
+void addPath(CLI::App& app, std::optional<Path>& path, const std::string& defaultPath) {
+    listIn("triangles", "PATH",
+           addEnum(app, "--path", path, kPaths, fmt::format("how triangles are made (default: {})", defaultPath)));
+}
+
+void addTriangles(CLI::App& app, TriangleOptions& options) {
+    const char* group = "triangles";
+    CLI::Option* rate = app.add_option("--rate", options.rate, "segments per edge of the cage, the same everywhere");
+    listIn(group, "N", rate);
+    listIn(group, "P",
+           app.add_option("--edge-pixels", options.edgePixels,
+                          fmt::format("length of segments on screen in pixels, which chooses the segments per edge "
+                                      "(default: {})",
+                                      options.edgePixels))
+               ->check(numberIn(1e-3, 1e6))
+               ->excludes(rate));
+    listIn(group, "SPACING", addEnum(app, "--spacing", options.spacing, kSpacings, "where edges are split"));
+    const auto setMemory = [&options](const std::string& word) { options.memory = parseBytes(word); };
+    listIn(group, "SIZE",
+           app.add_option_function<std::string>(
+                  "--memory", setMemory,
+                  "largest size of a diced mesh in bytes, such as 512M or 2G (default: half of the device's memory)")
+               ->check(sizeInBytes()));
+    addNormal(app, options.normal);
+}
+
+void addNormal(CLI::App& app, NormalKind& normal) {
+    listIn("normal", "KIND", addEnum(app, "--normal", normal, kNormals, "which normals"));
+}
+
+void addCamera(CLI::App& app, CameraOptions& camera, ivec2& size) {
+    const char* group = "camera";
+    // The picture, and from which side the object is seen.
+    listIn(group, "W,H",
+           addVector<ivec2>(app, "--size", size,
+                            fmt::format("width and height of the picture in pixels (default: {},{})", size.x, size.y))
+               ->check(CLI::Range(1, 16384)));
+    listIn(group, "A",
+           app.add_option("--azimuth", camera.azimuth,
+                          fmt::format("degrees around the Y axis, to the right; 0 looks along -Z (default: {})",
+                                      camera.azimuth))
+               ->check(anyNumber()));
+    listIn(group, "E",
+           app.add_option("--elevation", camera.elevation,
+                          fmt::format("degrees above the horizon, -90..90 (default: {})", camera.elevation))
+               ->check(numberIn(-90, 90)));
+    // What replaces the framing of the object.
+    listIn(group, "D",
+           app.add_option("--distance", camera.distance,
+                          "distance in cage units from the point looked at (default: the object fills the picture)")
+               ->check(numberIn(kSmallestSide, kFarthestCoordinate)));
+    listIn(group, "X,Y,Z",
+           addVector<dvec3>(app, "--look-at", camera.lookAt,
+                            "point in cage units that the camera looks at (default: the centre of the object)")
+               ->check(anyCoordinate()));
+    listIn(group, "F",
+           app.add_option("--fov", camera.fieldOfView,
+                          fmt::format("vertical field of view in degrees, 1..150 (default: {})", camera.fieldOfView))
+               ->check(numberIn(1, 150)));
+}
+
+void addDevice(CLI::App& app, std::string& name) {
+    listIn("device", "NAME",
+           app.add_option("--device", name,
+                          "part of the name of the Vulkan device to use; relief info --devices lists them"));
+}
+
+void addPicture(CLI::App& app, SceneDesc& scene, PictureArgs& picture) {
+    addPath(app, picture.triangles.path, "tessellation, or grid where the device has no tessellation shaders");
+    addTriangles(app, picture.triangles.options);
+    addCamera(app, scene.camera, scene.size);
+    addMaterial(app, scene.object.material);
+    addLighting(app, scene.lighting);
+    listIn("shading", "WHAT", addEnum(app, "--show", picture.show, kShows, "what the picture shows"));
+    addLayers(app, picture.layers);
+    addBackground(app, picture.finish);
+    addHeightSpace(app, scene.object.height.space);
+    addDevice(app, picture.device);
+}
+
+TriangleOptions toTriangleOptions(const TriangleArgs& args, const Device& device) {
+    TriangleOptions options = args.options;
+    options.path = args.path.value_or(choosePath(device.traits()).path);
+    return options;
+}
+
+RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene, const LoadedObject& object,
+                              const Device& device) {
+    RenderOptions options{toTriangleOptions(picture.triangles, device)};
+    options.show = picture.show;
+    options.layers = picture.layers;
+    options.lighting = makeLighting(scene.lighting, scene.camera.azimuth, nullptr);
+    options.unit = object.coordinates().unit;
+    return options;
+}
+
+void checkPicturePath(const std::string& path, const PictureArgs& args) {
+    if (!isPicturePath(path)) fail(Failure::usage, "{}: pictures are written as .png or .exr", path);
+    if (!args.layers.empty() && !path.ends_with(".exr")) fail(Failure::usage, "{}: layers are written to .exr", path);
+}
+
+bool wantsMotion(const PictureArgs& args) { return std::ranges::find(args.layers, Layer::motion) != args.layers.end(); }
+
+} // namespace relief::app

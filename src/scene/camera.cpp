@@ -1,0 +1,82 @@
+#include <algorithm>
+
+#include "scene/scene.h"
+
+namespace relief {
+namespace {
+
+double aspectOf(const ivec2& size) { return double(size.x) / size.y; }
+
+Bounds boundsOf(std::span<const dvec3> points) {
+    Bounds bounds;
+    for (const dvec3& p : points) bounds.add(p);
+    return bounds;
+}
+
+} // namespace
+
+CameraOptions toLocal(const Coordinates& coordinates, const CameraOptions& world) {
+    CameraOptions local = world;
+    if (local.distance) *local.distance /= coordinates.unit;
+    if (local.lookAt) local.lookAt = coordinates.toLocal(*local.lookAt);
+    return local;
+}
+
+Camera makeCamera(const SceneDesc& scene, const Coordinates& coordinates, std::span<const dvec3> points) {
+    return frameCamera(points, toLocal(coordinates, scene.camera), aspectOf(scene.size));
+}
+
+CameraOptions holdAllPoints(const CameraOptions& options, std::span<const dvec3> points, double aspect, bool isTurn) {
+    constexpr int kSides = 24;
+    // A turn goes around one point. From one side, the target is wherever it centres the picture.
+    CameraOptions side = options;
+    if (isTurn && !side.lookAt) side.lookAt = boundsOf(points).center();
+    // The distance that suffices from the side that needs the largest one.
+    double farthest = 0;
+    Camera camera;
+    for (int i = 0; i < (isTurn ? kSides : 1); ++i) {
+        side.azimuth = options.azimuth + 360.0 * i / kSides;
+        camera = frameCamera(points, side, aspect);
+        farthest = std::max(farthest, glm::length(camera.eye - camera.target));
+    }
+    CameraOptions held = options;
+    held.lookAt = camera.target;
+    held.distance = farthest;
+    return held;
+}
+
+Camera placeCamera(const CameraOptions& options, const Bounds& bounds) {
+    RELIEF_CHECK(options.lookAt.has_value() == true);
+    RELIEF_CHECK(options.distance.has_value() == true);
+    Camera camera;
+    camera.target = *options.lookAt;
+    camera.eye = camera.target + directionAt(options.azimuth, options.elevation) * *options.distance;
+    camera.fieldOfView = options.fieldOfView;
+    fitDepth(camera, bounds);
+    return camera;
+}
+
+Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment) {
+    // The defaults are those of the library's camera and light: so far apart they stay, wherever the camera is.
+    Lighting lighting;
+    lighting.keyAzimuth = azimuth + (Lighting().keyAzimuth - CameraOptions().azimuth);
+    if (desc.key) lighting.keyAzimuth = desc.key->x, lighting.keyElevation = desc.key->y;
+    lighting.castsShadows = desc.castsShadows;
+    lighting.environment = environment;
+    return lighting;
+}
+
+std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded) {
+    if (!loaded.environment) return {};
+    return uploadEnvironment(device, *loaded.environment);
+}
+
+Material makeMaterial(const MaterialDesc& desc) {
+    Material material;
+    if (!desc.albedo.empty()) material.albedo = vec3(1);
+    if (desc.color) material.albedo = *desc.color;
+    material.roughness = desc.roughness;
+    return material;
+}
+
+} // namespace relief

@@ -1,0 +1,109 @@
+#include "base/clock.h"
+#include "scene/loading.h"
+
+namespace relief {
+namespace {
+
+Scheme toScheme(Subdivision subdivision) {
+    switch (subdivision) {
+    case Subdivision::loop: return Scheme::loop;
+    case Subdivision::bilinear: return Scheme::bilinear;
+    default: return Scheme::catmark;
+    }
+}
+
+Subdivision chooseSubdivision(const ObjectDesc& desc, const Cage& cage) {
+    return desc.subdivision.value_or(cage.isAllTriangles() ? Subdivision::none : Subdivision::catmark);
+}
+
+/// Errors of the surface name the file of its cage.
+Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
+    try {
+        return buildSurface(object.cage, object.options);
+    } catch (const Error& error) {
+        fail(error.failure, "{}: {}", path, error.what());
+    }
+}
+
+/// What cannot work together, whatever the files hold.
+void checkUse(const ObjectDesc& desc, bool isDense) {
+    if (isDense && !desc.height.path.empty())
+        fail(Failure::usage,
+             "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
+             "catmark, loop or bilinear",
+             desc.cage);
+}
+
+void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) {
+    if (desc.motion.time && !object.animation)
+        fail(Failure::usage, "{}: --time asks for a pose; say what moves the cage: --cache, --skin or --deform",
+             desc.cage);
+    if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
+}
+
+} // namespace
+
+std::vector<std::string> listFiles(const ObjectDesc& object) {
+    return {object.cage, object.height.path, object.motion.cachePath, object.motion.skinPath, object.material.albedo};
+}
+
+std::vector<std::string> listFiles(const SceneDesc& scene) {
+    std::vector<std::string> files = listFiles(scene.object);
+    files.push_back(scene.lighting.environment);
+    return files;
+}
+
+const Coordinates& LoadedObject::coordinates() const {
+    return animation && restPositions.empty() ? animation->coordinates() : cage.coordinates;
+}
+
+LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
+    LoadedObject object;
+    const double start = secondsNow();
+    object.cage = readCage(desc.cage, warn);
+    checkTexCoords(object.cage, {desc.height.path, desc.material.albedo}, warn);
+    const Subdivision subdivision = chooseSubdivision(desc, object.cage);
+    const bool isDense = subdivision == Subdivision::none;
+    checkUse(desc, isDense);
+
+    // Heights may change the unit of the cage, which what moves it has to be read in.
+    if (!desc.height.path.empty()) {
+        EncodedMap map = loadHeights(desc, object.cage, warn);
+        object.height = std::move(map.decoded);
+        object.heightEncoding = std::move(map.encoding);
+        fitUnitToHeights(object, warn);
+    }
+    object.animation = loadAnimation(desc.motion, object.cage, warn);
+
+    // Point caches and skins fit the cage as it is in its file, so that it is welded after them.
+    if (desc.weld) weldObject(object, *desc.weld);
+    if (!isDense && !desc.weld) warnOfCoincidentVertices(object.cage, desc.cage, warn);
+    poseAsAsked(object, desc, state);
+    const double loadEnd = secondsNow();
+
+    // What is drawn: the polygons or a surface of them.
+    if (isDense) {
+        object.dense = denseMesh(object.cage);
+    } else {
+        object.options = {.scheme = toScheme(subdivision), .isolation = desc.isolation};
+        object.surface = buildNamedSurface(object, desc.cage);
+    }
+    object.loadSeconds = loadEnd - start;
+    object.surfaceSeconds = secondsNow() - loadEnd;
+    return object;
+}
+
+LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
+    const ObjectDesc& object = desc.object;
+    LoadedScene scene{.object = load(object, state, warn)};
+    warnOfUnusedTags(scene.object, object, warn);
+    if (!object.material.albedo.empty()) {
+        scene.object.albedo = loadAlbedo(object.material.albedo, warn);
+        // A height map has been named in such a warning already.
+        if (object.height.path.empty()) warnOutsideMap(object, scene.object.cage, object.material.albedo, warn);
+    }
+    if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
+    return scene;
+}
+
+} // namespace relief

@@ -1,0 +1,34 @@
+// The parts of load(), which are in files of their own.
+#pragma once
+
+#include "scene/scene.h"
+
+namespace relief {
+
+/// Reads the height map of an object. Warns of a cage without texture coordinates, and as warnOutsideMap does.
+EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn);
+
+/// Reads a color map. Throws Failure::input for fewer than 3 channels and for texels that are not finite; warns where
+/// the file has several layers and where values are clamped to 0..1.
+Image loadAlbedo(const std::string& path, const Warn& warn);
+
+/// Warns where the cage's texture coordinates leave the unit square and nothing says how `map` continues there.
+void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn);
+
+/// Takes heights into the unit of the cage's coordinates. Where they are much larger than the cage, that becomes a unit
+/// in between, so that squares of both are within the range of floats.
+void fitUnitToHeights(LoadedObject& object, const Warn& warn);
+
+/// Joins the vertices of a cage and of what moves it. Throws Failure::usage when no face is left.
+void weldObject(LoadedObject& object, const Distance& distance);
+
+/// Warns of a surface that is open between vertices at one place.
+void warnOfCoincidentVertices(const Cage& cage, const std::string& path, const Warn& warn);
+
+/// Warns of subdivision tags on polygons that are drawn themselves without being asked for.
+void warnOfUnusedTags(const LoadedObject& object, const ObjectDesc& desc, const Warn& warn);
+
+/// Moves the cage of an animation to the pose of MotionDesc::time, its normals with it.
+void poseCage(LoadedObject& object, const MotionDesc& desc);
+
+} // namespace relief

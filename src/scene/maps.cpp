@@ -1,0 +1,85 @@
+// Maps of an object: heights and colors.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/loading.h"
+
+namespace relief {
+namespace {
+
+/// The box of the texture coordinates that corners use.
+std::pair<vec2, vec2> texCoordRange(const Cage& cage) {
+    vec2 lower(INFINITY), upper(-INFINITY);
+    for (const std::uint32_t corner : cage.texCorners) {
+        lower = glm::min(lower, cage.texCoords[corner]);
+        upper = glm::max(upper, cage.texCoords[corner]);
+    }
+    return {lower, upper};
+}
+
+} // namespace
+
+void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn) {
+    constexpr float kRounding = 1e-4f; // of programs that write texture coordinates with a few digits
+    if (desc.height.wrap || !cage.hasTexCoords()) return;
+    const auto [lower, upper] = texCoordRange(cage);
+    const bool isInside =
+        lower.x >= -kRounding && lower.y >= -kRounding && upper.x <= 1 + kRounding && upper.y <= 1 + kRounding;
+    if (isInside) return;
+    warn(fmt::format("{}: texture coordinates go from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}), outside of 0..1, where {} "
+                     "repeats (sets of UDIM tiles are not supported); --wrap repeat or clamp says what is meant",
+                     desc.cage, lower.x, lower.y, upper.x, upper.y, map));
+}
+
+EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
+    const HeightDesc& height = desc.height;
+    HeightOptions options{
+        .mid = height.mid, .scale = height.scale, .channel = height.channel, .format = height.format, .limits = {}};
+    options.wrap = height.wrap.value_or(options.wrap);
+    EncodedMap map = loadHeightMap(height.path, options, warn);
+    if (!cage.hasTexCoords())
+        warn(fmt::format("{}: no texture coordinates: every face takes the whole map", desc.cage));
+    warnOutsideMap(desc, cage, height.path, warn);
+    return map;
+}
+
+void fitUnitToHeights(LoadedObject& object, const Warn& warn) {
+    constexpr double kUsual = 1 << 20, kMost = 1e15;
+    Coordinates& coordinates = object.cage.coordinates;
+    const double bound = object.height->heightBound(), size = summarize(object.cage).bounds.longestSide();
+    const double ratio = size > 0 ? bound / size : 0;
+    if (ratio > kMost)
+        warn(fmt::format("heights of up to {:.3g} cage units on a cage {:.3g} large: 32-bit floats hold at most {:.0e} "
+                         "times its size; lower --scale",
+                         bound, size, kMost));
+    if (ratio > kUsual) {
+        const double factor = std::ldexp(1.0, std::ilogb(std::min(ratio, kMost)) / 2);
+        for (vec3& p : object.cage.positions) p = dvec3(p) / factor;
+        coordinates.unit *= factor;
+    }
+    object.height->scale /= coordinates.unit;
+}
+
+Image loadAlbedo(const std::string& path, const Warn& warn) {
+    // Which channels are the colors.
+    const ImageInfo info = readImageInfo(path);
+    if (info.channels < 3)
+        fail(Failure::input, "{}: an albedo map has 3 channels, this one has {}", path, info.channels);
+    const std::vector<std::string> layers = layersOf(info);
+    if (layers.size() > 1)
+        warn(fmt::format("{}: there are {} layers; the colors are channels {}, {} and {}, the first ones", path,
+                         layers.size(), info.channelNames[0], info.channelNames[1], info.channelNames[2]));
+    // Values that are no colors: refused where they are no numbers, else clamped by the device's format.
+    Image image = readImage(path);
+    if (const std::optional<BadTexel> bad = findNotFinite(image))
+        fail(Failure::input,
+             "{}: channel {} of the texel in column {}, row {} (from 0, top left) is {}; colors are finite numbers",
+             path, info.channelNames[std::size_t(bad->channel)], bad->x, bad->y, bad->value);
+    const auto clamped = std::ranges::count_if(image.texels, [](float value) { return value < 0 || value > 1; });
+    if (clamped > 0)
+        warn(fmt::format("{}: {} of {} values are outside of 0..1, the range of an albedo; they are clamped to it",
+                         path, clamped, image.texels.size()));
+    return image;
+}
+
+} // namespace relief

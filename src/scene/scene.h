@@ -1,0 +1,205 @@
+// What a command line or a scene file asks for, as plain values, and the same loaded: object, camera, light.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "pose/pose.h"
+#include "scene/words.h"
+
+namespace relief {
+
+// --- what is asked for --------------------------------------------------------------------------------------------
+
+/// A length: cage units, or a share of the diagonal of the cage's bounding box.
+struct Distance {
+    double value = 0;
+    bool isShare = false;
+
+    [[nodiscard]] double cageUnits(double diagonal) const { return isShare ? value * diagonal : value; }
+};
+
+/// A height map as HeightOptions describes it. The path is empty where nothing displaces the surface.
+struct HeightDesc {
+    std::string path;
+    std::optional<double> mid, scale;
+    std::string channel;
+    std::optional<Wrap> wrap; ///< default: repeat, with a warning where texture coordinates leave 0..1
+    std::optional<MapFormat> format;
+    HeightSpace space = HeightSpace::absolute;
+};
+
+/// What moves the cage. Paths and deformers are empty where they are not asked for.
+struct MotionDesc {
+    std::string cachePath; ///< point cache
+    CacheOptions cache;    ///< its fps is that of an animation's frames too, whatever moves them
+    std::string skinPath;  ///< glTF file; not together with a cache
+    SkinOptions skin;
+    std::string deformers;      ///< expression of deform(); after the cache or the skin
+    std::optional<double> time; ///< seconds: the pose of a single picture or mesh; default 0
+
+    [[nodiscard]] bool isStill() const { return cachePath.empty() && skinPath.empty() && deformers.empty(); }
+};
+
+struct MaterialDesc {
+    std::string albedo;        ///< path of a color map, or empty
+    std::optional<vec3> color; ///< linear, multiplies the map; default: that of Material, or white with a map
+    float roughness = Material().roughness;
+};
+
+struct ObjectDesc {
+    std::string cage;                       ///< path
+    std::optional<Subdivision> subdivision; ///< default: none for a mesh of triangles, else catmark
+    int isolation = SurfaceOptions().isolation;
+    std::optional<Distance> weld; ///< joins boundary vertices at most so far apart; default: vertices stay as they are
+    HeightDesc height;
+    MaterialDesc material;
+    MotionDesc motion;
+};
+
+struct LightingDesc {
+    std::optional<dvec2> key; ///< azimuth and elevation of the key light, degrees; default: left of the camera
+    bool castsShadows = Lighting().castsShadows;
+    std::string environment; ///< path of an equirectangular picture; empty: the built-in studio
+};
+
+struct SceneDesc {
+    ObjectDesc object;
+    CameraOptions camera;                                    ///< in the world
+    ivec2 size{RendererDesc().width, RendererDesc().height}; ///< pixels of the picture
+    LightingDesc lighting;
+};
+
+/// All files that are named: outputs must not replace them. Names are empty where nothing is asked for.
+std::vector<std::string> listFiles(const ObjectDesc& object);
+std::vector<std::string> listFiles(const SceneDesc& scene);
+
+// --- loaded -------------------------------------------------------------------------------------------------------
+
+/// A cage with everything that is made of it, in host memory.
+struct LoadedObject {
+    Cage cage;
+    std::unique_ptr<Animation> animation; ///< null for a cage that nothing moves
+    std::vector<vec3> restPositions;      ///< of the cage, where load() has posed it; else empty
+    std::optional<DenseMesh> dense;       ///< instead of a surface, where the polygons are drawn themselves
+    SurfaceOptions options;
+    Surface surface;
+    std::optional<HeightMap> height; ///< as the device reads it
+    MapEncoding heightEncoding;      ///< how the device stores it
+    std::optional<Image> albedo;
+    double loadSeconds = 0, surfaceSeconds = 0; ///< what reading files and building the surface took
+
+    [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
+    /// Of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
+    [[nodiscard]] const Coordinates& coordinates() const;
+};
+
+struct LoadedScene {
+    LoadedObject object;
+    std::optional<Environment> environment; ///< default: the built-in studio
+};
+
+/// Whether a cage that moves is loaded in the pose of MotionDesc::time, or at rest to be posed on the device.
+enum class CageState { posed, atRest };
+
+/// Reads the files of an object and builds its surface.
+/// Throws Failure::file and Failure::input as the readers of the files do, naming the file; Failure::usage where
+/// heights or a time are asked for and the object has no surface or no motion, or welding leaves no face.
+LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn);
+
+/// Loads the object and the environment of a scene. Warns of subdivision tags on polygons that are drawn themselves.
+LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
+
+/// Joins boundary vertices of a cage that nothing moves. Throws Failure::usage when no face is left.
+Cage weldCage(Cage cage, const std::optional<Distance>& distance);
+
+/// For a cage some of whose faces lack texture coordinates: throws Failure::input when one of `maps`, which need them,
+/// is not empty, else warns.
+void checkTexCoords(const Cage& cage, const std::vector<std::string>& maps, const Warn& warn);
+
+// --- motion -------------------------------------------------------------------------------------------------------
+
+/// What moves the cage; null where nothing is asked for. Throws as readPointCache, readSkin and deform do.
+std::unique_ptr<Animation> loadAnimation(const MotionDesc& desc, const Cage& cage, const Warn& warn);
+
+/// Polygons that are drawn themselves and move: posed on the host, because their normals are.
+class MovingPolygons {
+public:
+    /// The animation has to outlive it.
+    MovingPolygons(Cage rest, const Animation& animation);
+    /// The mesh at a time. Vertices and triangles have the same order at all times.
+    [[nodiscard]] DenseMesh makeMesh(double seconds) const;
+
+private:
+    Cage rest_;
+    const Animation* animation_;
+};
+
+// --- on the device ------------------------------------------------------------------------------------------------
+
+/// The surface of an object, or the polygons that are drawn themselves, on the device.
+Model makeModel(Device& device, const LoadedObject& object);
+/// Throws Failure::internal for polygons that are drawn themselves.
+SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object);
+
+/// Where heights stretch with a cage that load() has posed, they are the device's to compute: poses the model there.
+/// Does nothing where heights are absolute or the cage is at rest.
+void stretchHeights(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space);
+
+// --- camera and light ---------------------------------------------------------------------------------------------
+
+/// Points that outline the displaced surface of a cage, by a coarse reference surface. Cage coordinates.
+std::vector<dvec3> computeOutline(const Cage& cage, Scheme scheme, const HeightMap* map);
+/// Points that outline an object as it is loaded.
+std::vector<dvec3> computeOutline(const LoadedObject& object);
+/// Points that outline the smooth surface of a cage, without heights, at one time of its animation; null: as it stands.
+std::vector<dvec3> computeOutlineAt(const Cage& cage, Scheme scheme, const Animation* animation, double seconds);
+/// Points that outline poses spread evenly over the keys of an animation, so that they are the same whichever of its
+/// frames are rendered.
+std::vector<dvec3> computeOutlineOfAll(const LoadedObject& object);
+
+/// A camera of the world in the coordinates of an object.
+CameraOptions toLocal(const Coordinates& coordinates, const CameraOptions& world);
+
+/// The camera of a scene; `points` outline the object, in its coordinates as the camera is then.
+Camera makeCamera(const SceneDesc& scene, const Coordinates& coordinates, std::span<const dvec3> points);
+
+/// The same options, with a point to look at and a distance from which all points are seen, from all sides of a turn if
+/// it is one. Options and points are in the object's coordinates.
+CameraOptions holdAllPoints(const CameraOptions& options, std::span<const dvec3> points, double aspect, bool isTurn);
+
+/// The camera of options whose point to look at and distance are set, its depths fitted to the box around the object.
+Camera placeCamera(const CameraOptions& options, const Bounds& bounds);
+
+/// `azimuth`: the camera's, degrees; the default key light follows it. `environment`: null for the built-in studio.
+Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment);
+/// The environment of a scene on the device; nothing where it has none of its own.
+std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded);
+Material makeMaterial(const MaterialDesc& desc);
+
+// --- files --------------------------------------------------------------------------------------------------------
+
+/// Whether `path` names a format that writePicture writes: .png or .exr.
+bool isPicturePath(const std::string& path);
+
+// --- devices ------------------------------------------------------------------------------------------------------
+
+/// A way to make triangles, and why it suits a device.
+struct PathChoice {
+    Path path = Path::grid;
+    std::string reason; ///< "it has tessellation shaders"
+};
+/// What pictures are drawn by where no path is asked for.
+PathChoice choosePath(const DeviceTraits& traits);
+/// Paths whose triangles a Capturer can read back.
+std::vector<Path> listCapturablePaths(const DeviceTraits& traits);
+/// How shaders read tables and maps: "texel buffers of up to 134217728 elements".
+std::string describeTableReads(const DeviceTraits& traits);
+/// One line per feature that a device lacks, with what relief cannot do there because of that.
+std::vector<std::string> listLimits(const DeviceTraits& traits);
+
+} // namespace relief

@@ -1,0 +1,82 @@
+// The words of what a scene asks for: one table per enumeration, for the command line, scene files and windows.
+#pragma once
+
+#include "animation/animation.h"
+#include "base/words.h"
+#include "frame/frame.h"
+#include "pose/pose.h"
+
+namespace relief {
+
+/// How the polygons of a cage become what is drawn.
+enum class Subdivision { catmark, loop, bilinear, none };
+
+inline constexpr Word<Subdivision> kSubdivisions[] = {
+    {"catmark", Subdivision::catmark, "Catmull-Clark subdivision"},
+    {"loop", Subdivision::loop, "Loop subdivision; all faces must be triangles"},
+    {"bilinear", Subdivision::bilinear, "bilinear subdivision: the surface follows the polygons"},
+    {"none", Subdivision::none, "the polygons themselves, which a height map cannot displace"},
+};
+
+inline constexpr Word<Path> kPaths[] = {
+    {"tessellation", Path::tessellation, "by the hardware tessellator, in every pass"},
+    {"grid", Path::grid, "by the vertex shader, in every pass"},
+    {"dice", Path::dice, "once per picture by compute shaders, into an indexed mesh in memory"},
+};
+
+inline constexpr Word<Spacing> kSpacings[] = {
+    {"equal", Spacing::equal, "whole numbers of segments of equal length"},
+    {"fractional", Spacing::fractional,
+     "segments that appear at zero length, so that nothing jumps while rates change"},
+};
+
+inline constexpr Word<NormalKind> kNormals[] = {
+    {"limit", NormalKind::limit, "of the smooth surface before displacement"},
+    {"first-order", NormalKind::firstOrder, "of the displaced surface, without the term of the surface's curvature"},
+    {"full", NormalKind::full, "of the displaced surface"},
+};
+
+inline constexpr Word<Wrap> kWraps[] = {
+    {"repeat", Wrap::repeat, "the map again"},
+    {"clamp", Wrap::clamp, "the nearest texel of its border"},
+};
+
+/// No value: the smallest format that keeps every value of the file.
+inline constexpr Word<std::optional<MapFormat>> kMapFormatChoices[] = {
+    {"auto", std::nullopt, "the smallest format that keeps every value of the file"},
+    {"float", MapFormat::real, "32-bit floats"},
+    {"half", MapFormat::half, "16-bit floats"},
+    {"unorm16", MapFormat::unorm16, "16-bit integers over the map's own range"},
+    {"unorm8", MapFormat::unorm8, "8-bit integers over the map's own range"},
+    {"bc4", MapFormat::bc4, "4 bits per texel, in compressed blocks"},
+};
+
+inline constexpr Word<HeightSpace> kHeightSpaces[] = {
+    {"absolute", HeightSpace::absolute, "cage units in every pose"},
+    {"stretch", HeightSpace::stretch, "heights grow and shrink with the surface"},
+};
+
+inline constexpr Word<Interpolation> kInterpolations[] = {
+    {"linear", Interpolation::linear, "positions are interpolated between the two nearest keys"},
+    {"step", Interpolation::step, "the earlier key holds until the next one"},
+};
+
+inline constexpr Word<Show> kShows[] = {
+    {"shaded", Show::shaded, "the material in light"},
+    {"normal", Show::normal, "normals as colors"},
+    {"height", Show::height, "heights as colors"},
+    {"rate", Show::rate, "segments per edge as colors"},
+    {"faces", Show::faces, "each face of the cage in a color of its own"},
+    {"wireframe", Show::wireframe, "the edges of the triangles"},
+};
+
+inline constexpr Word<Layer> kLayers[] = {
+    {"depth", Layer::depth, "distance along the view, cage units"},
+    {"normal", Layer::normal, "unit normal in world space, turned towards the eye"},
+    {"face", Layer::face, "number of the cage's face, -1 where nothing is seen"},
+    {"uv", Layer::uv, "texture coordinates"},
+    {"height", Layer::height, "height over the smooth surface, cage units"},
+    {"motion", Layer::motion, "pixels since the frame before, x to the right and y down"},
+};
+
+} // namespace relief

@@ -1,0 +1,55 @@
+// What is chosen for a device, and what is said of it.
+#include "scene/scene.h"
+#include "support.h"
+
+namespace relief::test {
+namespace {
+
+DeviceTraits ableDevice() {
+    DeviceTraits traits;
+    traits.hasTessellation = traits.hasWireframe = traits.hasTransformFeedback = traits.hasVertexStores = true;
+    traits.countsPipeline = true;
+    traits.timestampNanoseconds = 1;
+    traits.maxTexelBufferElements = 1u << 27;
+    return traits;
+}
+
+TEST(Devices, drawByGridWithoutTessellationShaders) {
+    DeviceTraits traits = ableDevice();
+    EXPECT_EQ(choosePath(traits).path, Path::tessellation);
+    traits.hasTessellation = false;
+    EXPECT_EQ(choosePath(traits).path, Path::grid);
+    EXPECT_NE(choosePath(traits).reason.find("no tessellation shaders"), std::string::npos);
+}
+
+TEST(Devices, areCertifiedByThePathsThatCanBeReadBack) {
+    DeviceTraits traits = ableDevice();
+    EXPECT_EQ(listCapturablePaths(traits), (std::vector{Path::tessellation, Path::grid, Path::dice}));
+    traits.hasTransformFeedback = false;
+    EXPECT_EQ(listCapturablePaths(traits), (std::vector{Path::grid, Path::dice}));
+    traits.hasVertexStores = false;
+    EXPECT_EQ(listCapturablePaths(traits), std::vector{Path::dice});
+}
+
+TEST(Devices, haveOneLinePerLimit) {
+    EXPECT_TRUE(listLimits(ableDevice()).empty());
+    const std::pair<std::function<void(DeviceTraits&)>, const char*> cases[] = {
+        {[](DeviceTraits& t) { t.hasTessellation = t.hasTransformFeedback = false; }, "--path tessellation"},
+        {[](DeviceTraits& t) { t.hasTransformFeedback = false; }, "transform feedback"},
+        {[](DeviceTraits& t) { t.hasWireframe = false; }, "--show wireframe"},
+        {[](DeviceTraits& t) { t.hasVertexStores = false; }, "--path grid"},
+        {[](DeviceTraits& t) { t.timestampNanoseconds = 0; }, "timestamps"},
+        {[](DeviceTraits& t) { t.countsPipeline = false; }, "pipeline statistics"},
+        {[](DeviceTraits& t) { t.maxTexelBufferElements = 65536; }, "262.1 kB"},
+    };
+    for (const auto& [weaken, word] : cases) {
+        DeviceTraits traits = ableDevice();
+        weaken(traits);
+        const std::vector<std::string> limits = listLimits(traits);
+        ASSERT_EQ(limits.size(), 1u) << word;
+        EXPECT_NE(limits[0].find(word), std::string::npos) << limits[0];
+    }
+}
+
+} // namespace
+} // namespace relief::test
