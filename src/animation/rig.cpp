@@ -36,6 +36,8 @@ private:
 
 std::vector<vec3> posedPositions(const Rig* rig, const Pose& pose) {
     if (rig == nullptr || !pose.positions.empty()) return pose.positions;
+    RELIEF_CHECK(pose.joints.size() == rig->jointCount);
+    RELIEF_CHECK(pose.morphWeights.size() == rig->morphCount);
     std::vector<vec3> positions;
     positions.reserve(rig->rest.size());
     for (std::size_t i = 0; i < rig->rest.size(); ++i)

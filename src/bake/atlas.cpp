@@ -21,7 +21,7 @@ Atlas::Atlas(const Cage& cage, int width, int height) : surface_(cage, {}), widt
     findSeams(cage);
 }
 
-/// A side is a seam unless another face runs the same texture coordinates the other way.
+/// A side is a seam unless another face has the same texture coordinates in the opposite order.
 void Atlas::findSeams(const Cage& cage) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> runs;
     auto corner = [&](std::size_t face, std::size_t i) { return cage.texCorners[4 * face + i % 4]; };
@@ -34,8 +34,8 @@ void Atlas::findSeams(const Cage& cage) {
 
 SurfacePoint Atlas::beyond(const SurfacePoint& border, const SurfacePoint& inner) const {
     dvec2 texels = (border.st - inner.st) * dvec2(width_, height_);
-    double reach = kMargin / std::max(1e-6, glm::length(texels));
-    return mix3({border, inner, border}, {1 + reach, -reach, 0});
+    double steps = kMargin / std::max(1e-6, glm::length(texels)); // of a length like that from inner to border
+    return mix3({border, inner, border}, {1 + steps, -steps, 0});
 }
 
 Atlas::Samples Atlas::sampleFace(int face) const {

@@ -43,6 +43,7 @@ std::vector<SampleQuery> cornersOf(const Surface& surface) {
 
 CornerReport reportCorners(const ReferenceSurface& reference, std::span<const SampleQuery> queries,
                            std::span<const SampleResult> results) {
+    RELIEF_CHECK(results.size() == queries.size());
     CornerReport report;
     for (std::size_t i = 0; i < queries.size(); ++i) {
         if (isNarrow(reference.limit(int(queries[i].face), dvec2(queries[i].uv)))) continue;

@@ -70,6 +70,8 @@ double foldFactor(const SampleResult& result) {
 }
 
 CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results) {
+    RELIEF_CHECK(results.size() == samples.queries.size());
+    RELIEF_CHECK(samples.hasCurvature.size() == samples.queries.size());
     CurvatureReport report;
     for (std::size_t i = 0; i < samples.queries.size(); ++i)
         if (samples.hasCurvature[i])

@@ -88,6 +88,7 @@ void add(RegionErrors& errors, const SampleError& error, const SurfacePlace& pla
 
 std::vector<SampleError> sampleErrors(const FrameComparison& with, std::span<const SampleQuery> queries,
                                       std::span<const SampleResult> results) {
+    RELIEF_CHECK(results.size() == queries.size());
     std::vector<SampleError> errors;
     errors.reserve(queries.size());
     for (std::size_t i = 0; i < queries.size(); ++i) errors.push_back(errorOf(with, queries[i], results[i]));
@@ -95,6 +96,7 @@ std::vector<SampleError> sampleErrors(const FrameComparison& with, std::span<con
 }
 
 FrameErrors summarizeErrors(std::span<const SampleQuery> queries, std::span<const SampleError> errors) {
+    RELIEF_CHECK(errors.size() == queries.size());
     FrameErrors summary;
     for (std::size_t i = 0; i < queries.size(); ++i)
         add(errors[i].isApproximate ? summary.endCaps : summary.regular, errors[i], {queries[i].face, queries[i].uv});

@@ -63,6 +63,8 @@ void pull(FillLevel& fine, const FillLevel& coarse) {
 } // namespace
 
 void fillVoids(int width, int height, std::span<float> texels, const std::vector<bool>& isVoid) {
+    RELIEF_CHECK(texels.size() == std::size_t(width) * std::size_t(height));
+    RELIEF_CHECK(isVoid.size() == texels.size());
     // Push: the finest level is the map itself, with voids that cover nothing.
     std::vector<FillLevel> levels{
         {width, height, {texels.begin(), texels.end()}, std::vector<float>(texels.size(), 1)}};

@@ -8,17 +8,18 @@
 
 namespace relief {
 
-/// Triangles that something else holds.
+/// Triangles whose arrays belong to somebody else.
 struct TriangleView {
     std::span<const vec3> positions;
-    std::span<const std::uint32_t> indices; ///< three a triangle
+    std::span<const std::uint32_t> indices; ///< three per triangle
 };
 
-/// Triangles ready to be measured from: in a tree for closest points, and covered with samples.
+/// A surface prepared for measuring: a tree for closest points, and samples that cover it.
 ///
-/// Samples are the same in every run. A surface of fewer triangles than `sampleCount` has its triangles cut into n * n
-/// equal parts, with n so that all parts are about as long; one of more is cut into as many runs of triangles in index
-/// order. Each part or run has one sample at a place of a low-discrepancy sequence, weighted by its area.
+/// Samples are the same in every run. A surface of fewer triangles than `sampleCount` has each triangle cut into n * n
+/// equal parts, with n chosen so that all parts are about as long. A surface of more triangles is cut into
+/// `sampleCount` groups of triangles that are consecutive in index order. Each part or group has one sample, at a point
+/// of a low-discrepancy sequence, weighted by its area.
 class MeasuredSurface {
 public:
     /// Throws Failure::input for indices out of range, numbers that are not finite and surfaces without area.
@@ -27,10 +28,11 @@ public:
     MeasuredSurface(MeasuredSurface&&) noexcept;
     MeasuredSurface& operator=(MeasuredSurface&&) noexcept;
 
-    /// From `p` to the nearest point of the surface, rounded as floats of its coordinates are (2^-24 of the largest).
+    /// Distance from `p` to the nearest point of the surface, in units of the positions. It is off by up to 2^-24 of
+    /// the largest coordinate, because closest points are searched with floats.
     [[nodiscard]] double distance(const dvec3& p) const;
     [[nodiscard]] std::size_t sampleCount() const;
-    /// No point of the surface is farther from the sample that stands for it.
+    /// Largest distance from a point of the surface to the sample that represents it.
     [[nodiscard]] double coverage() const;
 
 private:
@@ -39,24 +41,27 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// From the points of one surface to the nearest of another. What sampling costs: distance changes by no more than one
-/// moves, so the true maximum is between `max` and `max + coverage`. `rms` is a mean over `sampleCount` places;
-/// `rmsError` estimates how far it is off from how far the two halves of the samples disagree.
+/// Distances from samples of one surface to the nearest points of another.
 struct SampledDistance {
-    double rms = 0, max = 0, mean = 0;
-    double rmsError = 0, coverage = 0;
+    double rms = 0, max = 0, mean = 0; ///< weighted by area; the true maximum is between `max` and `max + coverage`
+    double rmsError = 0;               ///< estimate from the difference between the two halves of the samples
+    double coverage = 0;               ///< MeasuredSurface::coverage of the sampled surface
     std::size_t sampleCount = 0;
 };
+
+/// Measures from the samples of `from` to the surface `to`, on all cores.
 SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface& to);
 
-/// Both ways, on all cores.
+/// Distances from the first surface to the second, and back.
 struct SurfaceDistance {
     SampledDistance forth, back;
 
     [[nodiscard]] double rms() const;       ///< root of the mean of both mean squares
-    [[nodiscard]] double rmsError() const;  ///< the larger
-    [[nodiscard]] double hausdorff() const; ///< the larger maximum
+    [[nodiscard]] double rmsError() const;  ///< the larger of the two
+    [[nodiscard]] double hausdorff() const; ///< the larger of the two maxima
 };
+
+/// Measures in both directions, on all cores.
 SurfaceDistance measureDistance(const MeasuredSurface& a, const MeasuredSurface& b);
 
 } // namespace relief

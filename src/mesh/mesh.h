@@ -21,34 +21,37 @@ constexpr std::uint64_t denseBytes(std::uint64_t vertexCount, std::uint64_t tria
     return layout.vertexBytes() * vertexCount + 3 * layout.indexBytes * triangleCount;
 }
 
-/// Triangles with one normal and one texture coordinate a vertex.
+/// Triangles with one normal and one pair of texture coordinates per vertex.
 struct DenseMesh {
     std::vector<vec3> positions, normals;
-    std::vector<vec2> texCoords;        ///< empty, or one a vertex
-    std::vector<std::uint32_t> indices; ///< three a triangle
-    std::vector<float> heights;         ///< empty, or one a vertex from -1 to 1: to be seen, never written to a file
+    std::vector<vec2> texCoords;        ///< empty, or per vertex
+    std::vector<std::uint32_t> indices; ///< three per triangle
+    std::vector<float> heights;         ///< empty, or per vertex, -1..1: only for pictures, files do not hold them
     Coordinates coordinates;            ///< of the positions
 
     [[nodiscard]] std::uint64_t byteCount() const;
 };
 
-/// Vertices at one position become one, with the sum of their normals and without texture coordinates, which differ
-/// there. Triangles that lose a corner so are removed: a closed surface stays closed.
+/// Merges vertices at equal positions. The result has the unit sum of their normals and no texture coordinates, which
+/// may differ there. Triangles that lose a corner are removed: a closed surface stays closed.
 DenseMesh weldPositions(const DenseMesh& mesh);
 
-/// Throws Failure::usage unless the extension of `path` is one that writeMesh knows: .ply, .obj or .glb.
+/// Throws Failure::usage unless the extension of `path` is one that writeMesh supports: .ply, .obj or .glb.
 void checkMeshPath(const std::string& path);
 
-/// Throws Failure::input when the format that `path` asks for cannot hold so much: 32-bit indices in .ply, 31 bits in
-/// .obj, 4 GiB in .glb. Cheap: to be asked before the triangles are made.
+/// Throws Failure::input when the format that `path` asks for cannot hold that many: 32-bit indices in .ply, 31 bits in
+/// .obj, 4 GiB in .glb. Call it before the triangles are made.
 void checkMeshSize(const std::string& path, std::uint64_t vertexCount, std::uint64_t triangleCount, bool hasTexCoords);
 
-/// Writes by the extension of `path`, whole or not at all, through a buffer of 1 MiB: binary .ply, .obj that reads back
-/// to the same bits and has each position once, or .glb (glTF 2.0: t turned to run down). .obj and .glb omit triangles
-/// that name a vertex (.obj: a position) twice, which their readers refuse. A mesh with coordinates of its own is
-/// written in the world: as doubles in .obj and .ply (`property double x`), and in .glb, which has floats only, by the
-/// translation and scale of its node. Throws as the two checks above, Failure::input for a mesh without triangles,
-/// arrays that disagree, indices out of range and numbers that are not finite, Failure::file when writing fails.
+/// Writes a mesh by the extension of `path`, whole or not at all, through a buffer of 1 MiB.
+///   .ply  binary
+///   .obj  reads back to the same bits; each position is written once
+///   .glb  glTF 2.0, where t runs down
+/// .obj and .glb omit triangles that name a vertex (.obj: a position) twice, because their readers refuse them.
+/// Positions are written in world coordinates: as doubles in .obj and .ply (`property double x`), and in .glb, which
+/// has floats only, by the translation and scale of its node. Throws as the two checks above, Failure::input for a mesh
+/// without triangles, arrays that disagree, indices out of range and numbers that are not finite, Failure::file when
+/// writing fails.
 void writeMesh(const std::string& path, const DenseMesh& mesh, ShowProgress show = ShowProgress::never);
 
 } // namespace relief

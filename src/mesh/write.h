@@ -1,4 +1,4 @@
-// What the writers of dense meshes share: a file that is filled in chunks, and one function a format.
+// What the writers of dense meshes share: a file that is filled in chunks, and one function per format.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace relief {
 
-/// A file filled from front to back through a buffer; throws Failure::file as soon as bytes do not reach it.
+/// A file filled from front to back through a buffer; throws Failure::file as soon as writing fails.
 class MeshFile {
 public:
     /// Writes to `temporary`; messages call it `path`.
@@ -46,17 +46,17 @@ void putEach(std::size_t count, Progress& progress, const Put& put) {
     }
 }
 
-/// It names a vertex twice: readers and validators refuse such faces.
+/// True for a triangle that names a vertex twice: readers and validators refuse such faces.
 inline bool isDegenerate(const DenseMesh& mesh, std::size_t triangle) {
     const std::uint32_t* i = &mesh.indices[3 * triangle];
     return i[0] == i[1] || i[1] == i[2] || i[2] == i[0];
 }
 
-/// How many triangles do not; throws Failure::input when there is none.
+/// Counts the triangles that are not degenerate. Throws Failure::input when there are none.
 std::size_t soundTriangleCount(const DenseMesh& mesh, const std::string& path);
 
-/// The mesh has triangles and is valid. `show` is for a bar of the writer's own, which knows how often it walks over
-/// it.
+/// Write a valid mesh that has triangles. Each writer shows a progress bar of its own, because they differ in how often
+/// they walk over the mesh.
 void writePly(MeshFile& file, const DenseMesh& mesh, ShowProgress show);
 void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show);
 void writeGlb(MeshFile& file, const DenseMesh& mesh, ShowProgress show);

@@ -155,6 +155,7 @@ std::vector<float> faceHeightBounds(const HeightPyramid& pyramid, std::span<cons
 
 std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> points,
                                std::span<const float> heightBounds) {
+    RELIEF_CHECK(heightBounds.size() == surface.faces.size());
     std::vector<Bounds> bounds(surface.faces.size());
     for (std::size_t f = 0; f < bounds.size(); ++f) {
         Box<vec3> box;

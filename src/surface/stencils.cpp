@@ -84,6 +84,8 @@ std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cag
         fail(Failure::input, "{} positions were given for a cage of {} points", cagePositions.size(),
              surface.controlPointCount);
     const Stencils& stencils = surface.stencils;
+    RELIEF_CHECK(stencils.indices.size() == stencils.weights.size());
+    RELIEF_CHECK((stencils.rowCount() == 0 || stencils.offsets.back() == stencils.indices.size()));
     std::vector<vec3> points(cagePositions.begin(), cagePositions.end());
     points.reserve(points.size() + stencils.rowCount());
     for (std::size_t row = 0; row < stencils.rowCount(); ++row) {

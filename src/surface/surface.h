@@ -9,6 +9,7 @@
 
 namespace relief {
 
+/// Rules of subdivision: Catmull-Clark, Loop (triangles only), bilinear.
 enum class Scheme { catmark, loop, bilinear };
 
 struct SurfaceOptions {
@@ -16,20 +17,21 @@ struct SurfaceOptions {
     int isolation = 6; ///< levels of adaptive refinement around features, 0..10
 };
 
+/// A sparse matrix that makes refined points of control points:
 /// point[controlPointCount + row] = sum of weights[k] * point[indices[k]], k in [offsets[row], offsets[row+1]).
 struct Stencils {
     std::vector<std::uint32_t> offsets; ///< rowCount + 1 entries
-    std::vector<std::uint32_t> indices; ///< of points: of the cage, or of shared rows in rows that are not shared
+    std::vector<std::uint32_t> indices; ///< points of the cage; rows that are not shared may also name shared rows
     std::vector<float> weights;
-    std::uint32_t sharedRowCount = 0; ///< the first rows; around a vertex of many faces all others need what they sum
+    std::uint32_t sharedRowCount = 0; ///< the first rows: partial sums that all rows around a vertex of many faces need
 
     [[nodiscard]] std::size_t rowCount() const { return offsets.empty() ? 0 : offsets.size() - 1; }
 };
 
-/// What the device draws: built once for a cage's topology, valid for every pose of it.
+/// The limit surface as arrays that the device draws. Built once for a cage's topology, valid for every pose of it.
 struct Surface {
     Scheme scheme = Scheme::catmark;
-    int sideCount = 4; ///< sides a face: 4, or 3 for Loop
+    int sideCount = 4; ///< sides per face: 4, or 3 for Loop
     std::uint32_t controlPointCount = 0;
 
     std::vector<Face> faces;         ///< ptex faces in OpenSubdiv's order; holes have root kNoPatch
@@ -44,38 +46,42 @@ struct Surface {
     std::vector<Edge> edges;
     std::vector<Corner> corners;
     std::vector<Incidence> incidences;
-    /// Per incidence: drawn faces of its smooth sector, the faces around a corner between two sharp edges. Each sector
-    /// counts once in the direction that the faces share, however many faces it has. 1 along edges.
+    /// Per incidence: number of drawn faces in its smooth sector, which are the faces around a corner between two sharp
+    /// edges. Each sector counts once in the shared direction of displacement, however many faces it has. 1 along
+    /// edges.
     std::vector<std::uint32_t> sectorFaces;
 
     bool isClosed = false;   ///< no boundary edges and no holes
-    double tableSeconds = 0; ///< time that building took, most of it inside OpenSubdiv
+    double tableSeconds = 0; ///< duration of building, most of it inside OpenSubdiv
 
     [[nodiscard]] bool hasTexCoords() const { return !texPoints.empty(); }
     [[nodiscard]] std::uint64_t byteCount() const;
 };
 
-/// Refines adaptively, builds patches, stencils, trees and owners. Throws Failure::input for cages that the scheme
-/// cannot take (Loop wants triangles) and Failure::usage for an isolation out of range.
+/// Refines a cage adaptively and builds patches, stencils, trees and owners.
+/// Throws Failure::input for cages that the scheme does not allow (Loop needs triangles) and Failure::usage for an
+/// isolation out of range.
 Surface buildSurface(const Cage& cage, const SurfaceOptions& options);
 
 /// A leaf of a face's tree. In four-sided faces it covers ([u, u+1], [v, v+1]) / 2^depth.
 struct TreeLeaf {
     std::uint32_t patchIndex = 0, depth = 0, u = 0, v = 0;
 };
-/// The leaves below a tree entry (Face::root); none of a hole.
+/// Lists the leaves below a tree entry (Face::root); a hole has none.
 std::vector<TreeLeaf> leavesOf(std::span<const std::uint32_t> tree, std::uint32_t root);
 
-/// Cage points, then every stencil row: what Surface::patchPoints index. Sums run in double and round once.
+/// Computes the points that Surface::patchPoints index: cage points, then every stencil row. Sums are computed in
+/// double precision and rounded once.
 std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cagePositions);
 
-/// (u,v) of the point at x in [0,1] along side `side`.
+/// Computes (u,v) of the point at x in [0,1] along a side of a face.
 dvec2 sidePoint(int sideCount, int side, double x);
 
-/// All faces along every edge, of smooth edges too (Surface::incidences lists only where normals must be agreed).
+/// The faces along every edge, smooth edges included (Surface::incidences lists only edges and corners whose faces
+/// share a direction of displacement).
 struct EdgeIncidences {
     std::vector<std::uint32_t> firsts; ///< edgeCount + 1 entries into incidences
-    std::vector<Incidence> incidences; ///< of each edge in index order of the faces: the owner comes first
+    std::vector<Incidence> incidences; ///< per edge in index order of the faces: the owner comes first
 
     [[nodiscard]] std::span<const Incidence> of(std::size_t edge) const {
         return std::span(incidences).subspan(firsts[edge], firsts[edge + 1] - firsts[edge]);
@@ -84,8 +90,8 @@ struct EdgeIncidences {
 EdgeIncidences edgeIncidences(const Surface& surface);
 EdgeIncidences edgeIncidences(std::span<const Face> faces, int sideCount, std::size_t edgeCount);
 
-/// True when front and back faces cancel along every line of sight: every edge is run by as many drawn faces one way as
-/// the other.
+/// True for closed and oriented surfaces: along every edge as many drawn faces run one way as the other, so that front
+/// and back faces alternate along every line of sight.
 bool enclosesVolume(const Surface& surface);
 
 /// Limit position and its derivatives by face coordinates (u,v).
@@ -102,8 +108,9 @@ struct TexFrame {
     dmat2 jacobian{1};
 };
 
-/// The oracle: Far patches in double precision with the library's known traps corrected (n-gon derivative scale, sign
-/// of turned triangles, true derivatives of Gregory patches). Shares no code with the shaders.
+/// Evaluates the limit surface in double precision: the reference that the shaders are compared with, and which shares
+/// no code with them. It uses OpenSubdiv's Far patches and corrects their known faults (scale of derivatives in n-gons,
+/// sign of rotated triangles, derivatives of Gregory patches).
 class ReferenceSurface {
 public:
     ReferenceSurface(const Cage& cage, const SurfaceOptions& options);
@@ -111,7 +118,7 @@ public:
     ReferenceSurface(ReferenceSurface&&) noexcept;
     ReferenceSurface& operator=(ReferenceSurface&&) noexcept;
 
-    /// Poses the cage: same count as the cage's positions.
+    /// Moves the cage. Throws Failure::input unless there are as many positions as the cage has.
     void pose(std::span<const vec3> cagePositions);
 
     [[nodiscard]] int faceCount() const; ///< ptex faces, holes included
@@ -119,8 +126,9 @@ public:
     [[nodiscard]] bool isHole(int face) const;
     /// True when (u,v) falls in an end cap at an extraordinary vertex, where the patch only approximates the surface.
     [[nodiscard]] bool isApproximate(int face, const dvec2& uv) const;
+    /// Position and derivatives. Throws Failure::input for a face out of range and for holes, as all evaluations do.
     [[nodiscard]] LimitFrame limit(int face, const dvec2& uv) const;
-    /// (u,v) itself with the unit Jacobian where the cage has no texture coordinates.
+    /// Texture coordinates; (u,v) itself with the unit Jacobian where the cage has none.
     [[nodiscard]] TexFrame texture(int face, const dvec2& uv) const;
     /// p_u x p_v, which is as long as the area per unit of (u,v). At a corner where p_u and p_v are parallel or vanish:
     /// its derivative along the diagonal from the corner into the face, by differences of points of the patch.

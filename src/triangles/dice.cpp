@@ -142,9 +142,10 @@ void checkMemory(const Device& device, std::uint64_t bytes, const Work& work, st
         fail(Failure::device,
              "dicing makes {} vertices and {} triangles, {}; {} are allowed: lower the rate or raise --memory",
              work.vertexCount, work.triangleCount, humanBytes(bytes), humanBytes(limit));
-    if (2 * work.vertexCount > device.traits().maxTexelBufferElements)
+    const std::uint64_t mostVertices = largestTable(device, 16) / kVertexBytes;
+    if (work.vertexCount > mostVertices)
         fail(Failure::device, "dicing makes {} vertices; this device reads {} at most: lower the rate",
-             work.vertexCount, device.traits().maxTexelBufferElements / 2);
+             work.vertexCount, mostVertices);
 }
 
 } // namespace

@@ -13,8 +13,7 @@ const dvec3 kUtm(512347.078, 120.5, 4187654.321); ///< not one
 /// The same cage somewhere else, as a loader gives it.
 Cage movedTo(const dvec3& offset, const Cage& cage = torusWithSeams()) {
     Cage moved = cage;
-    moved.coordinates =
-        coordinatesFor(computeBounds(cage.positions, [&](const vec3& p) { return dvec3(p) + offset; }));
+    moved.coordinates = coordinatesFor(computeBounds(cage.positions, [&](const vec3& p) { return dvec3(p) + offset; }));
     for (vec3& p : moved.positions) p = moved.coordinates.toLocal(dvec3(p) + offset);
     return moved;
 }

@@ -102,8 +102,8 @@ LeafPlace leafOf(const Surface& surface, const SampleQuery& query) {
 Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis, const MapEncoding& encoding = {}) {
     const Surface surface = buildSurface(c.cage, c.options);
     const ReferenceSurface reference(c.cage, c.options);
-    const SurfaceModel model(device(),
-                      {.surface = &surface, .cagePositions = c.cage.positions, .height = &map, .encoding = &encoding});
+    const SurfaceModel model(
+        device(), {.surface = &surface, .cagePositions = c.cage.positions, .height = &map, .encoding = &encoding});
     const std::vector<SampleQuery> queries = randomQueries(surface, 600);
     const std::vector<SampleResult> results = sampler().sample(model, queries, {.isGenericBasis = isGenericBasis});
     Bounds bounds;
@@ -250,7 +250,8 @@ TEST_F(Bases, specialisedPatchesEqualOpenSubdivsGenericBasis) {
     const HeightMap map = sineMap(64, 0.05);
     for (const NamedCage& named : allCages()) {
         const Surface surface = buildSurface(named.cage, {.isolation = 3});
-        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        const SurfaceModel model(device(),
+                                 {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         const std::vector<SampleQuery> queries = randomQueries(surface, 200);
         const std::vector<SampleResult> ours = sampler().sample(model, queries);
         const std::vector<SampleResult> theirs = sampler().sample(model, queries, {.isGenericBasis = true});

@@ -30,7 +30,8 @@ TEST_F(Normals, ofAllThreeKindsEqualTheReference) {
         const SurfaceOptions options{.isolation = 3};
         const Surface surface = buildSurface(named.cage, options);
         const ReferenceSurface reference(named.cage, options);
-        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        const SurfaceModel model(device(),
+                                 {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         const std::vector<SampleQuery> queries = insidePoints(surface);
         for (const NormalKind kind : {NormalKind::limit, NormalKind::firstOrder, NormalKind::full}) {
             const std::vector<SampleResult> results = sampler().sample(model, queries, {.normal = kind});

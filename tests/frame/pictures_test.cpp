@@ -49,7 +49,8 @@ TEST_F(Pictures, ofTessellationAndGridAgree) {
     for (const NamedCage& named : allCages()) {
         if (named.name == "moebiusStrip") continue; // one-sided: which side a shared vertex faces depends on the draw
         const Surface surface = buildSurface(named.cage, {.isolation = 3});
-        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        const SurfaceModel model(device(),
+                                 {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
         RenderOptions options = optionsFor(named.cage, Show::normal);
         options.rate = 32;
         const Picture patches = renderer().render(model, options);

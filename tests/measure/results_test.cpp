@@ -235,7 +235,8 @@ TEST(Goals, ofTheProjectMeasureTheDeviationOfCostsFromTheMiddleOfTheirRange) {
     ASSERT_EQ(found.size(), 1u); // of dicing: the other paths have no rows
     EXPECT_DOUBLE_EQ(found[0].found, 0.1);
     EXPECT_TRUE(found[0].isMet());
-    EXPECT_NE(toTable(results, readProjectGoals()).find("goal met: 10 %, wanted at most 15 %: dicing: cost per additional triangle"),
+    EXPECT_NE(toTable(results, readProjectGoals())
+                  .find("goal met: 10 %, wanted at most 15 %: dicing: cost per additional triangle"),
               std::string::npos);
     results.rows.resize(2); // one value deviates from nothing
     EXPECT_TRUE(evaluateGoals(readProjectGoals(), results).empty());

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "maps.h"
+#include "meshes.h"
 #include "model/bounds.h"
+#include "triangles/triangles.h"
 
 namespace relief::test {
 namespace {
@@ -50,17 +52,52 @@ TEST(Bounds, holdWhatLookupsFindInEveryMipLevel) {
         }
 }
 
-// A spike beside the box that the finest level does not see there, and a coarse one does.
+/// One spike of the given height in a flat map of 1024 x 1024 texels: column 450, row 514. In mip level 6 it lifts a
+/// texel of 64 columns from 448 on, and lookups half a texel beside that.
+HeightMap spike(double height) {
+    std::vector<float> texels(1024 * 1024, 0.0f);
+    texels[514 * 1024 + 450] = 1;
+    return makeHeightMap(1024, 1024, std::move(texels), 0, height, Wrap::repeat);
+}
+constexpr int kSpikeLevel = 6;
+
+// A spike beside the box that the finest level does not find there, and a coarse one does.
 TEST(Bounds, growWithTheMipLevel) {
-    std::vector<float> texels(64 * 64, 0.0f);
-    texels[32 * 64 + 40] = 1;
-    const HeightMap map = makeHeightMap(64, 64, std::move(texels), 0, 1, Wrap::repeat);
+    const HeightMap map = spike(1);
     const HeightPyramid pyramid(map);
-    const TexBox box{vec2(0.25f, 0.4f), vec2(0.375f, 0.6f)}; // columns 16 to 24
+    const TexBox box{vec2(0.516f, 0.49f), vec2(0.532f, 0.5f)}; // columns 528 to 544
     EXPECT_EQ(pyramid.range(box).highest, 0);
-    EXPECT_EQ(pyramid.range(box, 3).highest, 1);
-    const EncodedMap encoded{map, {}};
-    EXPECT_GT(sampleHeight(levelOf(encoded, toWords(map), 3), dvec2(0.37, 0.5)).h, 0);
+    EXPECT_EQ(pyramid.range(box, kSpikeLevel).highest, 1);
+    EXPECT_GT(sampleHeight(levelOf({map, {}}, toWords(map), kSpikeLevel), dvec2(0.525, 0.495)).h, 0);
+}
+
+// The view is a slab above a flat grid: what the spike lifts into it must be drawn, where a coarse level spreads it
+// too.
+TEST(Bounds, hideNoFaceThatACoarseLevelLiftsIntoView) {
+    constexpr double kLifted = 1e-4;
+    const Cage cage = boundaryGrid(64, 64);
+    const Surface surface = buildSurface(cage, {.isolation = 1});
+    const ReferenceSurface reference(cage, {.isolation = 1});
+    const HeightMap map = spike(10), mip = levelOf({map, {}}, toWords(map), kSpikeLevel);
+    Device device;
+    const SurfaceModel model(device, {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    mat4 worldToClip(0);
+    worldToClip[1][1] = float(1 / kLifted);
+    worldToClip[3] = vec4(0, -2, 0.5f, 1);
+    const EdgeRates fine{uniformRates(model, 4), Spacing::equal, {}},
+        coarse{uniformRates(model, 4), Spacing::equal, std::vector<float>(model.cornerFlags.size(), kSpikeLevel)};
+    const std::vector<char> before = visibleFaces(model, worldToClip, {}, fine),
+                            after = visibleFaces(model, worldToClip, {}, coarse);
+    EXPECT_LT(std::ranges::count(before, 1), 200);
+    EXPECT_LT(std::ranges::count(after, 1), 3000); // of 4096
+    int missingCount = 0;
+    for (int face = 0; face < reference.faceCount(); ++face) {
+        const double h = sampleHeight(mip, reference.texture(face, dvec2(0.5)).st).h;
+        if (h <= kLifted) continue;
+        missingCount += before[std::size_t(face)] == 0 ? 1 : 0;
+        EXPECT_TRUE(after[std::size_t(face)]) << "face " << face << " is lifted by " << h;
+    }
+    EXPECT_GT(missingCount, 3) << "bounds of level 0 would hide them";
 }
 
 } // namespace

@@ -299,7 +299,8 @@ TEST_F(Poses, thatGrowTwiceStretchHeightsTwice) {
     std::vector<vec3> twice = cage.positions;
     for (vec3& p : twice) p *= 2.0f;
     const StretchScene scene(cage, twice);
-    const SurfaceModel still(device(), {.surface = &scene.surface, .cagePositions = cage.positions, .height = &scene.map});
+    const SurfaceModel still(device(),
+                             {.surface = &scene.surface, .cagePositions = cage.positions, .height = &scene.map});
     const std::vector<SampleQuery> queries = randomQueries(scene.surface, 100);
     const std::vector<SampleResult> results = sampler().sample(scene.model, queries),
                                     before = sampler().sample(still, queries);

@@ -63,9 +63,9 @@ TEST_P(ProductionCage, SidesLieOnTheirEdges) {
     atPieces(surface, [&](const Piece& piece) {
         const Incidence& owner = surface.edges.at(piece.edge).owner;
         for (const double t : {0.0, 0.3, 0.5, 1.0})
-            worst =
-                std::max(worst, glm::length(reference.limit(int(piece.incidence.face), pointOf(surface, piece.incidence, t)).p -
-                                            reference.limit(int(owner.face), pointOf(surface, owner, t)).p));
+            worst = std::max(
+                worst, glm::length(reference.limit(int(piece.incidence.face), pointOf(surface, piece.incidence, t)).p -
+                                   reference.limit(int(owner.face), pointOf(surface, owner, t)).p));
     });
     EXPECT_LE(worst, 1e-12 * boundsOf(cage).diagonal());
 }

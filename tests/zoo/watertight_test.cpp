@@ -50,7 +50,8 @@ void visit(const Pen& pen, std::uint32_t& turn, Tally& tally) {
         const std::vector<vec3> positions = pen.posedTogether(pose);
         for (std::size_t map = 0; map < maps.size(); ++map) {
             if (pen.isSmall() && (std::size_t(pose) + map) % 3 != 0) continue;
-            const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions, .height = maps[map].get()});
+            const SurfaceModel model(device(),
+                                     {.surface = &surface, .cagePositions = positions, .height = maps[map].get()});
             const auto kind = RateKind(++turn % kRateKinds);
             const EdgeRates rates = zooRates(model, kind, turn);
             const Load load{pen, model, fmt::format("{}, {}, {}", kPoseNames[int(pose)], maps[map].name, nameOf(kind))};

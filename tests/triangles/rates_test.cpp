@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <random>
 
-#include "device.h"
+#include "frame/device.h"
 #include "frame/passes.h"
 #include "maps.h"
 #include "meshes.h"
