@@ -327,7 +327,7 @@ TEST_F(Poses, thatStretchHaveTheReferencesPointsAndTheNormalsOfItsDifferences) {
         const auto q = [&](double du, double dv) { return scene.frameAt(queries[i], dvec2(du, dv)).q; };
         const dvec3 m = glm::cross(q(kStep, 0) - q(-kStep, 0), q(0, kStep) - q(0, -kStep));
         squares += std::pow(degrees(m, dvec3(results[i].m)), 2);
-        const double factor = f.height.h / sampleHeight(scene.map, f.st).h;
+        const double factor = f.height.h / sampleHeight(scene.map, f.tex.st).h;
         leastFactor = std::min(leastFactor, factor), mostFactor = std::max(mostFactor, factor);
     }
     EXPECT_LT(std::sqrt(squares / double(queries.size())), 0.05);

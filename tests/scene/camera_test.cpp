@@ -56,11 +56,10 @@ TEST(SceneCamera, thatIsHeldIsTheOneThatFramesThePoints) {
 }
 
 TEST(SceneLight, turnsWithTheCameraUnlessItIsGiven) {
-    const LoadedScene loaded;
-    const Lighting usual = makeLighting({}, CameraOptions().azimuth, loaded);
+    const Lighting usual = makeLighting({}, CameraOptions().azimuth, nullptr);
     EXPECT_EQ(usual.keyAzimuth, Lighting().keyAzimuth);
-    EXPECT_EQ(makeLighting({}, CameraOptions().azimuth + 90, loaded).keyAzimuth, Lighting().keyAzimuth + 90);
-    const Lighting given = makeLighting({.key = dvec2(7, 8)}, 123, loaded);
+    EXPECT_EQ(makeLighting({}, CameraOptions().azimuth + 90, nullptr).keyAzimuth, Lighting().keyAzimuth + 90);
+    const Lighting given = makeLighting({.key = dvec2(7, 8)}, 123, nullptr);
     EXPECT_EQ(given.keyAzimuth, 7);
     EXPECT_EQ(given.keyElevation, 8);
 }
