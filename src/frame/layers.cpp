@@ -59,6 +59,7 @@ void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
         drawn.bindings[kBindDepths].view = layerTargets->depths.view.get();
         drawn.bindings[kBindNormals].view = layerTargets->normals.view.get();
         drawn.bindings[kBindColors].view = layerTargets->surfacePoints.view.get();
+        drawn.bindings[kBindInstances] = resources.bindings()[kBindInstances];
         if (frame.hasInstances()) drawn.bindings[kBindInstances].view = layerTargets->instances->view.get();
     }
     makeSets(frame, DrawPass::layers);

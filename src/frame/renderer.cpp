@@ -81,8 +81,7 @@ void Renderer::Parts::describeView(Frame& frame) {
     frame.bindings[kBindDepths] = {.view = targets.depths.view.get(), .sampler = nearest.get()};
     frame.bindings[kBindNormals] = {.view = targets.normals.view.get(), .sampler = nearest.get()};
     frame.bindings[kBindColors] = {.view = targets.colors.view.get(), .sampler = nearest.get()};
-    if (frame.hasInstances())
-        frame.bindings[kBindInstances] = {.view = targets.instances->view.get(), .sampler = nearest.get()};
+    frame.bindings[kBindInstances] = {.view = targets.instances.view.get(), .sampler = nearest.get()};
 }
 
 /// An instance with its tables, and the view in the model's own space.
@@ -130,7 +129,8 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
     while (inputBuffers.size() < instances.size() + 1) inputBuffers.push_back(makeInputBuffer(device));
     frame.drawn.reserve(instances.size());
     frame.drawn.resize(instances.size());
-    if (frame.hasInstances() && !targets.instances)
+    const TextureDesc& marks = targets.instances.desc;
+    if (frame.hasInstances() && uvec2(marks.width, marks.height) != size())
         targets.instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_4_BIT);
     describeView(frame);
     if (frame.hasInstances()) {
@@ -184,7 +184,7 @@ void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
 void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) {
     Rendering::Targets all{
         {attachment(targets.normals), attachment(targets.colors)}, attachment(targets.depths), size()};
-    if (frame.hasInstances()) all.colors.push_back(attachment(*targets.instances));
+    if (frame.hasInstances()) all.colors.push_back(attachment(targets.instances));
     Rendering rendering = begin(commands, frame, std::move(all));
     draw(rendering, frame, DrawPass::surface);
     if (frame.technique.hasLines) draw(rendering, frame, DrawPass::lines);

@@ -17,6 +17,7 @@ Targets makeTargets(Device& device, const RendererDesc& desc) {
     t.normals = samples("normals", kNormalFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.colors = samples("colors", kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.depths = samples("depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
+    t.instances = makeInstanceTarget(device, {.width = 1, .height = 1}, VK_SAMPLE_COUNT_4_BIT);
     t.shadow = makeTexture(device, {.name = "shadow",
                                     .width = shadowSide,
                                     .height = shadowSide,

@@ -3,7 +3,7 @@
 namespace relief {
 namespace {
 
-enum class BindingKind { inputs, words, floats, image };
+enum class BindingKind { inputs, words, floats, image, integerImage };
 
 struct BindingRow {
     std::uint32_t slot;
@@ -22,7 +22,7 @@ constexpr BindingRow kBindings[] = {
     {kBindDiceTiles, BindingKind::words},      {kBindDiceFirsts, BindingKind::words},
     {kBindLevels, BindingKind::floats},        {kBindEdgeHeights, BindingKind::floats},
     {kBindDepths, BindingKind::image},         {kBindNormals, BindingKind::image},
-    {kBindColors, BindingKind::image},         {kBindInstances, BindingKind::image},
+    {kBindColors, BindingKind::image},         {kBindInstances, BindingKind::integerImage},
 };
 static_assert(std::size(kBindings) == kBindCount);
 
@@ -34,7 +34,8 @@ VkDescriptorType tableType(const Device& device) {
 VkDescriptorType descriptorType(const Device& device, BindingKind kind) {
     switch (kind) {
     case BindingKind::inputs: return VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    case BindingKind::image: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    case BindingKind::image:
+    case BindingKind::integerImage: return VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     default: return tableType(device);
     }
 }
@@ -122,7 +123,9 @@ PassResources::PassResources(Device& device)
       noWords_(uploadTexels(device, {.name = "no words"}, VK_FORMAT_R32G32B32A32_UINT, {})),
       noFloats_(uploadTexels(device, {.name = "no floats"}, VK_FORMAT_R32G32B32A32_SFLOAT, {})),
       noImage_(uploadTexture(device, {.name = "no image"}, std::as_bytes(std::span("\0\0\0", 4)), 4)),
-      sampler_(makeSampler(device, {})) {}
+      noIntegers_(uploadTexture(device, {.name = "no integers", .format = VK_FORMAT_R8_UINT},
+                                std::as_bytes(std::span("", 1)), 1)),
+      sampler_(makeSampler(device, {.filter = VK_FILTER_NEAREST})) {}
 
 PassBindings PassResources::bindings() const {
     PassBindings bindings;
@@ -133,6 +136,7 @@ PassBindings PassResources::bindings() const {
         case BindingKind::words: binding = noWords_.binding(); break;
         case BindingKind::floats: binding = noFloats_.binding(); break;
         case BindingKind::image: binding.view = noImage_.view.get(), binding.sampler = sampler_.get(); break;
+        case BindingKind::integerImage: binding.view = noIntegers_.view.get(), binding.sampler = sampler_.get(); break;
         }
     }
     return bindings;

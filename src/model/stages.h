@@ -74,7 +74,7 @@ public:
 private:
     Buffer inputs_;
     TexelBuffer noWords_, noFloats_;
-    Texture noImage_;
+    Texture noImage_, noIntegers_;
     Owned<VkSampler> sampler_;
 };
 

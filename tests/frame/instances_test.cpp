@@ -112,11 +112,13 @@ TEST_F(Instances, hideAndShadeEachOther) {
     const Instance front(ball().model, {}, glm::translate(mat4(1), vec3(0, 0, 3)));
     const Instance behind(ball().mesh, {.albedo = {0, 1, 0}}, glm::scale(mat4(1), vec3(0.5f)));
     RenderOptions options = optionsOf(Path::grid);
+    options.lighting.castsShadows = false;
     const Instance both[] = {behind, front};
     const Image together = renderer().render(both, options).image(), alone = renderer().render(front, options).image();
     EXPECT_EQ(differentPixels(together, alone, 0.0f), 0u) << "what is behind is not seen";
 
     // A ball above another one, under light from above: the lower one is darker.
+    options.lighting.castsShadows = true;
     options.lighting.keyElevation = 89;
     const Instance lower(ball().model), upper(ball().mesh, {}, glm::translate(mat4(1), vec3(0, 2.5f, 0)));
     const Instance stack[] = {lower, upper};

@@ -40,7 +40,6 @@ TEST(Devices, haveOneLinePerLimit) {
         {[](DeviceTraits& t) { t.hasVertexStores = false; }, "--path grid"},
         {[](DeviceTraits& t) { t.timestampNanoseconds = 0; }, "timestamps"},
         {[](DeviceTraits& t) { t.countsPipeline = false; }, "pipeline statistics"},
-        {[](DeviceTraits& t) { t.maxTexelBufferElements = 65536; }, "262.1 kB"},
     };
     for (const auto& [weaken, word] : cases) {
         DeviceTraits traits = ableDevice();
@@ -49,6 +48,15 @@ TEST(Devices, haveOneLinePerLimit) {
         ASSERT_EQ(limits.size(), 1u) << word;
         EXPECT_NE(limits[0].find(word), std::string::npos) << limits[0];
     }
+}
+
+TEST(Devices, sayHowTablesAreRead) {
+    DeviceTraits traits = ableDevice();
+    EXPECT_NE(describeTableReads(traits).find("texel buffers"), std::string::npos);
+    traits.readsTablesAs = TableAccess::storageBuffers;
+    traits.maxTexelBufferElements = 65536;
+    EXPECT_NE(describeTableReads(traits).find("storage buffers"), std::string::npos);
+    EXPECT_NE(describeTableReads(traits).find("65536"), std::string::npos);
 }
 
 } // namespace
