@@ -120,6 +120,7 @@ TEST_F(Instances, hideAndShadeEachOther) {
     // A ball above another one, under light from above: the lower one is darker.
     options.lighting.castsShadows = true;
     options.lighting.keyElevation = 89;
+    options.lighting.keyStrength = 12;
     const Instance lower(ball().model), upper(ball().mesh, {}, glm::translate(mat4(1), vec3(0, 2.5f, 0)));
     const Instance stack[] = {lower, upper};
     const Image shaded = renderer().render(stack, options).image(), lit = renderer().render(lower, options).image();
