@@ -14,8 +14,8 @@ mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
 
 /// The images of a picture in the making.
 struct Targets {
-    Texture normals, colors, depths;  ///< four samples per pixel, what surface.frag writes
-    Texture instances; ///< of the picture's size once one has several, else a single pixel
+    Texture normals, colors, depths; ///< four samples per pixel, what surface.frag writes
+    Texture instances;               ///< of the picture's size once one has several, else a single pixel
     Texture shadow;
     Buffer picture; ///< four halves per pixel, mapped
 };

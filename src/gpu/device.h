@@ -47,6 +47,10 @@ struct DeviceTraits {
     std::uint32_t maxTexelBufferElements = 0; ///< of one texel buffer view
     std::uint64_t maxStorageBufferRange = 0;  ///< bytes of one storage buffer binding
     TableAccess readsTablesAs = TableAccess::texelBuffers;
+    /// Vertex stages may evaluate surfaces. Mesa 22.3's CPU driver reads storage buffers wrong there, within branches
+    /// and loops, in the last vertices of a draw that are fewer than its lanes: where it reads tables so, vertices are
+    /// made by compute shaders alone.
+    bool evaluatesInVertexStages = true;
     /// Invocations that a workgroup should have where there is little work: a CPU driver runs the rest one after
     /// another.
     std::uint32_t smallGroup = 64;

@@ -148,6 +148,7 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE) {
         traits.tessellatedVerticesPerDraw = kLavapipeVerticesPerDraw;
         traits.meshTrianglesInFlight = kLavapipeTrianglesInFlight;
+        traits.evaluatesInVertexStages = traits.readsTablesAs == TableAccess::texelBuffers;
     }
     return traits;
 }

@@ -27,12 +27,14 @@ void stretchHeights(Device& device, SurfaceModel& model, const LoadedObject& obj
 bool isPicturePath(const std::string& path) { return path.ends_with(".png") || path.ends_with(".exr"); }
 
 PathChoice choosePath(const DeviceTraits& traits) {
+    if (!traits.evaluatesInVertexStages) return {Path::dice, "its vertex shaders do not read storage buffers rightly"};
     if (traits.hasTessellation) return {Path::tessellation, "it has tessellation shaders"};
     return {Path::grid, "it has no tessellation shaders"};
 }
 
 std::vector<Path> listCapturablePaths(const DeviceTraits& traits) {
     std::vector<Path> paths;
+    if (!traits.evaluatesInVertexStages) return {Path::dice};
     if (traits.hasTessellation && traits.hasTransformFeedback) paths.push_back(Path::tessellation);
     if (traits.hasVertexStores) paths.push_back(Path::grid);
     paths.push_back(Path::dice);
@@ -52,6 +54,8 @@ std::vector<std::string> listLimits(const DeviceTraits& traits) {
         if (isMissing) limits.emplace_back(text);
     };
     add(!traits.hasTessellation, "no tessellation shaders: --path tessellation is refused");
+    add(!traits.evaluatesInVertexStages,
+        "storage buffers go wrong in vertex shaders: --path tessellation and --path grid are refused");
     add(!traits.hasWireframe, "no wireframe: --show wireframe is refused");
     add(traits.hasTessellation && !traits.hasTransformFeedback,
         "no transform feedback: relief check cannot certify --path tessellation");

@@ -6,10 +6,6 @@
 #include "triangles/stages.h"
 
 namespace relief {
-namespace {
-
-constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
-constexpr std::uint32_t kTessellatorLimit = 64;
 
 /// Where a cage edge lies on the height map, measured on its owner face.
 struct EdgeFootprint {
@@ -17,7 +13,15 @@ struct EdgeFootprint {
     float heightRange = 0; ///< highest less lowest height along it, from bounds: cage units
 };
 
+namespace {
+
+constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
+constexpr std::uint32_t kTessellatorLimit = 64;
+
 std::uint32_t rateLimit(const DeviceTraits& traits, const TriangleOptions& options) {
+    if (options.path != Path::dice && !traits.evaluatesInVertexStages)
+        fail(Failure::usage, "{} does not read storage buffers rightly in vertex shaders; use --path dice",
+             traits.name);
     if (options.path != Path::tessellation) return kRateLimit;
     if (!traits.hasTessellation)
         fail(Failure::usage, "{} has no tessellation shaders; use --path grid or dice", traits.name);

@@ -48,6 +48,20 @@ TEST_P(SecondDriver, drawsTheGoldens) {
 INSTANTIATE_TEST_SUITE_P(Pictures, SecondDriver, ::testing::ValuesIn(kGoldens),
                          [](const auto& info) { return std::string(info.param.name); });
 
+using SecondDriverPromises = SecondDriver;
+
+// Maps and tables of more than the 65,536 elements that it reads from a texel buffer.
+TEST_F(SecondDriverPromises, keepLargeMapsAndCagesWatertightAndExact) {
+    writeImage(scenes_ / "large.exr", sineImage(2048, 16), SampleType::half);
+    Words cages = {cagePath("octopus")};
+    if (const std::string folder = productionFolder(); !folder.empty()) cages.push_back(folder + "/bigguy.obj");
+    for (const std::string& cage : cages) {
+        const Outcome outcome = relief({"check", cage, "--height", scenes_ / "large.exr", "--scale", "0.01", "--rate",
+                                        "3", "--points", "1000", "--device", kDevice});
+        EXPECT_EQ(outcome.exitCode, 0) << cage << outcome.err << outcome.out;
+    }
+}
+
 using SecondDriverMutants = SecondDriver;
 
 TEST_F(SecondDriverMutants, areSeen) {

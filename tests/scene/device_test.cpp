@@ -36,6 +36,7 @@ TEST(Devices, haveOneLinePerLimit) {
     const std::pair<std::function<void(DeviceTraits&)>, const char*> cases[] = {
         {[](DeviceTraits& t) { t.hasTessellation = t.hasTransformFeedback = false; }, "--path tessellation"},
         {[](DeviceTraits& t) { t.hasTransformFeedback = false; }, "transform feedback"},
+        {[](DeviceTraits& t) { t.evaluatesInVertexStages = false; }, "--path grid"},
         {[](DeviceTraits& t) { t.hasWireframe = false; }, "--show wireframe"},
         {[](DeviceTraits& t) { t.hasVertexStores = false; }, "--path grid"},
         {[](DeviceTraits& t) { t.timestampNanoseconds = 0; }, "timestamps"},
