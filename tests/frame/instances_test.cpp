@@ -10,7 +10,7 @@ namespace {
 
 class Instances : public OnDevice {};
 
-Renderer& renderer() {
+Renderer& instanceRenderer() {
     static Renderer instance(device(), {.width = 96, .height = 96, .shadowSide = 256});
     return instance;
 }
@@ -63,16 +63,16 @@ TEST_F(Instances, standWhereTheirTransformPutsThem) {
         RenderOptions options = optionsOf(path);
         options.lighting.castsShadows = false;
         options.show = Show::faces; // light from the eye: it moves with the camera
-        const Image moved = renderer().render(Instance(ball().model, {}, toWorld), options).image();
+        const Image moved = instanceRenderer().render(Instance(ball().model, {}, toWorld), options).image();
 
         const glm::dmat4 back = glm::inverse(glm::dmat4(toWorld));
         const auto toModel = [&](const dvec3& p) { return dvec3(back * glm::dvec4(p, 1)); };
         options.camera.eye = toModel(options.camera.eye);
         options.camera.target = toModel(options.camera.target);
         options.camera.nearDistance /= 1.4, options.camera.farDistance /= 1.4;
-        const Image still = renderer().render(ball().model, options).image();
+        const Image still = instanceRenderer().render(ball().model, options).image();
         EXPECT_LT(differentPixels(moved, still, 0.02f), 96u * 96u / 200) << int(path);
-        EXPECT_GT(differentPixels(moved, renderer().render(ball().model, optionsOf(path)).image(), 0.02f), 500u);
+        EXPECT_GT(differentPixels(moved, instanceRenderer().render(ball().model, optionsOf(path)).image(), 0.02f), 500u);
     }
 }
 
@@ -81,7 +81,7 @@ TEST_F(Instances, turnTheirNormals) {
     RenderOptions options = optionsOf(Path::grid);
     options.show = Show::normal;
     const mat4 half = glm::rotate(mat4(1), 3.14159265f, vec3(0, 1, 0)); // a cube of this map looks the same from behind
-    const Image turned = renderer().render(Instance(ball().model, {}, half), options).image();
+    const Image turned = instanceRenderer().render(Instance(ball().model, {}, half), options).image();
     const float* middle = turned.at(48, 48);
     EXPECT_GT(middle[2], 0.8f) << "the side that is seen faces +z, whichever it is in the model";
 }
@@ -96,9 +96,9 @@ TEST_F(Instances, haveMaterialsOfTheirOwn) {
         RenderOptions options = optionsOf(path);
         options.lighting.castsShadows = false;
         const Instance both[] = {red, blue};
-        const Picture picture = renderer().render(both, options);
-        const Image together = picture.image(), left = renderer().render(red, options).image(),
-                    right = renderer().render(blue, options).image();
+        const Picture picture = instanceRenderer().render(both, options);
+        const Image together = picture.image(), left = instanceRenderer().render(red, options).image(),
+                    right = instanceRenderer().render(blue, options).image();
         Image sum = left;
         for (std::size_t i = 0; i < sum.texels.size(); ++i) sum.texels[i] += right.texels[i];
         EXPECT_EQ(differentPixels(together, sum, 0.0f), 0u) << int(path);
@@ -114,7 +114,7 @@ TEST_F(Instances, hideAndShadeEachOther) {
     RenderOptions options = optionsOf(Path::grid);
     options.lighting.castsShadows = false;
     const Instance both[] = {behind, front};
-    const Image together = renderer().render(both, options).image(), alone = renderer().render(front, options).image();
+    const Image together = instanceRenderer().render(both, options).image(), alone = instanceRenderer().render(front, options).image();
     EXPECT_EQ(differentPixels(together, alone, 0.0f), 0u) << "what is behind is not seen";
 
     // A ball above another one, under light from above: the lower one is darker.
@@ -123,7 +123,7 @@ TEST_F(Instances, hideAndShadeEachOther) {
     options.lighting.keyStrength = 12;
     const Instance lower(ball().model), upper(ball().mesh, {}, glm::translate(mat4(1), vec3(0, 2.5f, 0)));
     const Instance stack[] = {lower, upper};
-    const Image shaded = renderer().render(stack, options).image(), lit = renderer().render(lower, options).image();
+    const Image shaded = instanceRenderer().render(stack, options).image(), lit = instanceRenderer().render(lower, options).image();
     EXPECT_LT(shaded.at(48, 42)[0], 0.8f * lit.at(48, 42)[0]);
 }
 
@@ -133,8 +133,8 @@ TEST_F(Instances, writeTheirOwnLayers) {
     options.layers = {Layer::depth, Layer::face, Layer::height};
     const Instance both[] = {Instance(ball().model, {}, glm::translate(mat4(1), vec3(-1.6f, 0, 0))),
                              Instance(ball().model, {}, glm::translate(mat4(1), vec3(1.6f, 0, -2)))};
-    const Picture together = renderer().render(both, options);
-    const Picture alone[] = {renderer().render(both[0], options), renderer().render(both[1], options)};
+    const Picture together = instanceRenderer().render(both, options);
+    const Picture alone[] = {instanceRenderer().render(both[0], options), instanceRenderer().render(both[1], options)};
     const auto at = [](const Picture& picture, int x, std::uint32_t channel) {
         return picture.layerValues[(48 * 96 + std::size_t(x)) * kLayerChannels + channel];
     };
@@ -147,9 +147,9 @@ TEST_F(Instances, writeTheirOwnLayers) {
 
 TEST_F(Instances, areAtLeastOneAndAtMost256) {
     expectFailure(Failure::usage, {"0 instances", "1..256"},
-                  [] { renderer().render(std::span<const Instance>(), optionsOf(Path::grid)); });
+                  [] { instanceRenderer().render(std::span<const Instance>(), optionsOf(Path::grid)); });
     const std::vector<Instance> many(257, Instance(ball().mesh));
-    expectFailure(Failure::usage, {"257 instances"}, [&] { renderer().render(many, optionsOf(Path::grid)); });
+    expectFailure(Failure::usage, {"257 instances"}, [&] { instanceRenderer().render(many, optionsOf(Path::grid)); });
 }
 
 } // namespace

@@ -180,7 +180,7 @@ inline EdgeRates zooRates(const SurfaceModel& model, RateKind kind, std::uint32_
     if (int(kind) < 6) {
         rates.rates = uniformRates(model, float(kUniformRates[int(kind)]));
     } else if (kind == RateKind::filtered) {
-        rates = rater().rates(model, {.rate = 1 + int(random() % 6), .filtersHeights = true}, {});
+        rates = rater().rates(model, {.path = Path::grid, .rate = 1 + int(random() % 6), .filtersHeights = true}, {});
     } else {
         const bool isFractional = kind == RateKind::fractional || (kind == RateKind::levels && random() % 2 == 0);
         rates.spacing = isFractional ? Spacing::fractional : Spacing::equal;
