@@ -2,38 +2,13 @@
 #ifndef RELIEF_DISPLACED_GLSL
 #define RELIEF_DISPLACED_GLSL
 
-#include "corners.glsl"
 #include "heights.glsl"
 #include "locations.glsl"
-#include "shared/displacement.h"
+#include "surface_point.glsl"
 
-layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false; // else a face's own (u,v) stand in for them
-layout(constant_id = kIdHasHeight) const bool kHasHeight = false;
 layout(constant_id = kIdNormal) const uint kNormal = kNormalFull;
-layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
 
 // --- normals --------------------------------------------------------------------------------------------------------
-
-bool spansPlane(vec3 a, vec3 b) {
-    vec3 c = cross(a, b);
-    return dot(c, c) > kParallel * kParallel * dot(a, a) * dot(b, b);
-}
-
-// Where p_u and p_v are parallel or vanish (coincident corners, cusps, smooth corners) they are taken a little towards
-// the face's centre, a sixteenth of the leaf patch, by their own derivatives: never NaN.
-void repairTangents(inout LimitFrame f, vec2 uv, float leafScale) {
-    if (spansPlane(f.pu, f.pv)) return;
-#ifdef RELIEF_TRIANGLES
-    vec2 inwards = (vec2(1.0 / 3.0) - uv) / (16.0 * abs(leafScale));
-#else
-    vec2 inwards = (vec2(0.5) - uv) / (16.0 * abs(leafScale));
-#endif
-    f.pu += f.puu * inwards.x + f.puv * inwards.y;
-    f.pv += f.puv * inwards.x + f.pvv * inwards.y;
-    if (spansPlane(f.pu, f.pv)) return;
-    f.pu = vec3(1, 0, 0);
-    f.pv = vec3(0, 0, -1);
-}
 
 // The direction of m, or n where it has none. m grows with the square of heights and of their slopes: the square of
 // its length may be past the range of floats where m itself is not.
@@ -43,17 +18,6 @@ vec3 unitOr(vec3 m, vec3 n) {
     float square = dot(m, m);
     return square > 0.0 && !isinf(square) ? normalize(m) : n;
 }
-
-// A point of the limit surface, not displaced yet.
-struct SurfacePoint {
-    LimitFrame frame;
-    TexFrame tex;
-    vec3 n;          // unit normal
-    float area;      // |p_u x p_v|; at a straight corner its derivative along the diagonal
-    bool isStraight; // at a straight corner: p_u and p_v are parallel and nothing can be derived from them
-    float stretch;   // what heights are multiplied with: 1 unless they stretch with the surface
-    vec2 logStretch; // derivatives of its logarithm by (u,v)
-};
 
 // The normal asked for by --normal, not yet unit.
 vec3 displacedNormal(SurfacePoint point, HeightSample height) {
@@ -88,83 +52,6 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     if (!kHasTexCoords) return uv;
     Leaf leaf = findLeaf(face, uv);
     return patchFrame(fetchPatch(leaf.patchIndex, inputs.model.pointsNow).texture, leaf.uv).p.xy;
-}
-
-// p_u x p_v, or what stands for it where it vanishes: at straight corners its derivative along the diagonal; elsewhere p_u and
-// p_v are repaired.
-vec3 areaNormal(inout LimitFrame f, PatchPoints patchPoints, Leaf leaf, vec2 uv, out bool isStraight) {
-    isStraight = false;
-#ifdef RELIEF_MEETS_CORNERS
-    if (kHasStraightCorners) {
-        vec3 straight = straightCornerNormal(patchPoints, leaf.uv);
-        isStraight = straight != vec3(0);
-        if (isStraight) return straight;
-    }
-#endif
-    repairTangents(f, uv, leaf.scale);
-    precise vec3 normal = cross(f.pu, f.pv);
-    return normal;
-}
-
-// How much the surface has grown since rest, as a length; `restNormal` is the rest pose's areaNormal.
-void addStretch(inout SurfacePoint point, LimitFrame rest, vec3 restNormal) {
-    precise float restArea = length(restNormal);
-    precise float stretch = stretchOf(point.area, restArea);
-    point.stretch = stretch;
-    if (stretch >= kMostStretch || point.isStraight) return;
-    LimitFrame f = point.frame;
-    vec3 n0 = restNormal / restArea;
-    vec2 areaSlope = vec2(areaDerivative(point.n, f.pu, f.pv, f.puu, f.puv), areaDerivative(point.n, f.pu, f.pv, f.puv, f.pvv));
-    vec2 restSlope = vec2(areaDerivative(n0, rest.pu, rest.pv, rest.puu, rest.puv),
-                          areaDerivative(n0, rest.pu, rest.pv, rest.puv, rest.pvv));
-    point.logStretch = 0.5 * (areaSlope / point.area - restSlope / restArea);
-}
-
-// The frames of the surface, of its texture coordinates and of its rest pose at one point, as far as they are asked for.
-struct PointFrames {
-    LimitFrame surface, texture, rest;
-};
-
-// One call of patchFrame() in a loop: the compiler unfolds every call, and compiling is part of a cold start (COLDSTART).
-PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsTexture, bool wantsRest) {
-    PointFrames frames = PointFrames(kNoFrame, kNoFrame, kNoFrame);
-    uint textureTurn = wantsTexture ? 1u : 0u, restTurn = textureTurn + (wantsRest ? 1u : 0u);
-    for (uint turn = 0u; turn <= restTurn; ++turn) {
-        bool isTexture = turn > 0u && turn == textureTurn;
-        ControlPoints points = patchPoints.surface;
-        if (isTexture) points = patchPoints.texture;
-        else if (wantsRest && turn == restTurn) points = inPose(points, inputs.model.pointsRest);
-        LimitFrame f = byFace(patchFrame(points, leaf.uv), leaf.scale);
-        if (turn == 0u) frames.surface = f;
-        else if (isTexture) frames.texture = f;
-        else frames.rest = f;
-    }
-    return frames;
-}
-
-SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
-    bool hasTexture = wantsTexture && kHasTexCoords && (kHasHeight || kWantsTexCoords);
-    bool hasRest = kStretches && wantsTexture && kHasHeight;
-    PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
-    SurfacePoint point;
-    point.frame = frames.surface;
-    point.tex = TexFrame(uv, mat2(1.0));
-    if (hasTexture) point.tex = TexFrame(frames.texture.p.xy, mat2(frames.texture.pu.xy, frames.texture.pv.xy));
-    point.stretch = 1.0;
-    point.logStretch = vec2(0);
-    precise vec3 normal = areaNormal(point.frame, patchPoints, leaf, uv, point.isStraight);
-    precise float area = length(normal);
-    precise vec3 n = normal / area;
-    point.area = area;
-    point.n = n;
-    if (hasRest) {
-        PatchPoints atRest = patchPoints;
-        atRest.surface.array = inputs.model.pointsRest;
-        bool isStraight;
-        vec3 restNormal = areaNormal(frames.rest, atRest, leaf, uv, isStraight);
-        addStretch(point, frames.rest, restNormal);
-    }
-    return point;
 }
 
 // What belongs to the face that a point is seen from.

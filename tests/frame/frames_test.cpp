@@ -144,7 +144,7 @@ Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis, const M
 
 class Frames : public OnDevice, public ::testing::WithParamInterface<Case> {};
 
-// DESIGN's tolerances are 5e-5 of the box for points, 5 times that for first and 25 times for second derivatives.
+// OpenSubdiv's own tolerances are 5e-5 of the box for points, 5 times that for first and 25 times for second derivatives.
 // Single precision against double leaves less: a few units of rounding, magnified with the patch's depth for
 // derivatives.
 TEST_P(Frames, agreeWithTheReference) {

@@ -117,7 +117,7 @@ std::vector<Case> allCases() {
     return all;
 }
 
-// DESIGN's tolerance is 5e-5 of the box for points; single precision leaves less.
+// OpenSubdiv's own tolerance is 5e-5 of the box for points; single precision leaves less.
 TEST_F(Poses, giveTheLimitPointsOfThePosedCage) {
     const HeightMap map = sineMap(64, 0.02);
     double worstPoint = 0, worstDisplaced = 0;
