@@ -3,7 +3,7 @@
 #include "dice.glsl"
 #include "displaced.glsl"
 
-// The samples on corners and edges, an invocation a vertex, each evaluated at its owner.
+// The samples on corners and edges, one invocation per vertex, each evaluated at its owner.
 layout(local_size_x_id = kIdGroupSize) in;
 
 // The run that holds a vertex: corners come first, each a run of one; the others by halving.

@@ -3,7 +3,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "dice.glsl"
 
-// The samples inside faces, a workgroup a tile.
+// The samples inside faces, one workgroup per tile.
 layout(local_size_x_id = kIdGroupSize) in;
 
 #ifdef RELIEF_TRIANGLES
@@ -31,7 +31,7 @@ vec2 insidePoint(InsideTile tile, uvec2 ij) {
 
 #ifdef RELIEF_TRIANGLES
 
-// Number of inner sample (i,j) of a triangle with n segments a side: rows of n - 2, n - 3, ... samples.
+// Number of inner sample (i,j) of a triangle with n segments per side: rows of n - 2, n - 3, ... samples.
 uint insideIndex(uvec2 ij, uint n) { return (ij.y - 1u) * (n - 2u) - (ij.y - 1u) * (ij.y - 2u) / 2u + ij.x - 1u; }
 
 void main() {

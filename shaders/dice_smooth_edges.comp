@@ -3,7 +3,8 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "dice.glsl"
 
-// The samples along smooth edges whose owner is one bicubic patch, a workgroup a run: what dice_edges.comp would make of them.
+// The samples along smooth edges whose owner is one bicubic patch, one workgroup per run: what dice_edges.comp would make
+// of them.
 layout(local_size_x_id = kIdGroupSize) in;
 
 #ifdef RELIEF_TRIANGLES

@@ -22,7 +22,7 @@ uvec4 tileRow(uint row) { return 4u * row + uvec4(0, 1, 2, 3); }
 #define RELIEF_POINT_INDEX(points, k) (k)
 #define RELIEF_POINT tilePoint
 #define RELIEF_TEX_POINT tileTexPoint
-#define RELIEF_UNROLL [[unroll]] // constant places in the arrays
+#define RELIEF_UNROLL [[unroll]] // constant indices into the arrays
 #include "displaced.glsl"
 
 void loadTile(PatchPoints patchPoints) {

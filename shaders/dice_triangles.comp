@@ -3,8 +3,8 @@
 #include "dice.glsl"
 #include "locations.glsl"
 
-// The triangles between the samples, a workgroup a tile. Each side is a ring of triangles that joins the r segments of the edge
-// to the segments of the inner samples beside it, as the fixed-function tessellator does; within are cells.
+// The triangles between the samples, one workgroup per tile. Each side is a ring of triangles that joins the r segments
+// of the edge to the segments of the inner samples beside it, as the fixed-function tessellator does; within are cells.
 //
 //   inner samples     +---+---+---+         a segment of the edge takes the inner sample after as many inner segments
 //                    / \ / \ /|  \          as have their middles before its own, and an inner segment likewise:
@@ -52,7 +52,7 @@ void storeTriangle(uint triangle, uint a, uint b, uint c) {
 
 #ifdef RELIEF_TRIANGLES
 
-// Inner samples: the lattice of n segments a side without its border, at least the centre of n = 3.
+// Inner samples: the lattice of n segments per side without its border, at least the centre of n = 3.
 uint insideVertex(TriangleTile tile, uint n, uint i, uint j) {
     return tile.firstVertex + (j - 1u) * (n - 2u) - (j - 1u) * (j - 2u) / 2u + i - 1u;
 }
@@ -63,7 +63,7 @@ uint innerOf(TriangleTile tile, uint side, uvec2 n, uint i) {
            : side == 1u ? insideVertex(tile, n.x, last - i, 1u + i) : insideVertex(tile, n.x, 1u, last - i);
 }
 
-// Cell triangles of the inner lattice, of n - 3 segments a side, row by row: row y has 2 (m - y) - 1 of them.
+// Cell triangles of the inner lattice, of n - 3 segments per side, row by row: row y has 2 (m - y) - 1 of them.
 void storeCell(TriangleTile tile, uvec2 n, uint t, uint triangle) {
     uint m = n.x - 3u, y = 0u;
     while (t >= 2u * (m - y) - 1u) {

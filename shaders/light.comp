@@ -100,7 +100,7 @@ vec3 colorAt(ivec2 at, int i) {
     return colorOfStored(texelFetch(colorSamples, at, i).rgb, kShow == kShowShaded);
 }
 
-// The material at a sample; all instances have one where there is one instance.
+// The material at a sample: that of the inputs where the picture has one instance alone.
 Material materialAt(ivec2 at, int i) {
     if (!kHasInstances) return inputs.material;
     return inputs.targets.materials.at[texelFetch(instanceSamples, at, i).x];

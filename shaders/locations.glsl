@@ -12,7 +12,7 @@ const uint kSideCount = 4u;
 #endif
 
 // Where a sample is evaluated. Inside a face that is the face itself; on an edge or corner it is the owner, whatever
-// face is being drawn, so that all of them arrive at the same bits.
+// face is being drawn, so that all faces there arrive at the same bits.
 struct SampleLocation {
     Incidence owner;
     uint firstIncidence;

@@ -5,7 +5,7 @@
 #include "varyings.glsl"
 #include "project.glsl"
 
-// A triangle mesh as it is: a dense one, the opponent of every comparison, or one that was diced.
+// A triangle mesh as it is: a dense one, which displaced surfaces are compared with, or one that was diced.
 layout(push_constant, scalar) uniform PushBlock { MeshPush push; };
 
 RELIEF_TABLE(kBindMesh, vec4, meshAt)

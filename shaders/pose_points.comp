@@ -3,12 +3,12 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "pose.glsl"
 
-// Refined and local points from those of the cage: a block of the stencil matrix after another (see shared/pose.h).
+// Refined and local points from those of the cage: the stencil matrix block by block (see shared/pose.h).
 layout(local_size_x_id = kIdGroupSize) in;
 
-// Entries of every block of the dispatch, for devices that run a subgroup of 8 lanes: a workgroup is such a subgroup, its lanes
-// fetch the points together, and the straight code that follows reads each of them once for all lanes. 0: blocks of any size, a
-// lane a row, points from the texture caches.
+// Entries of every block of the dispatch, for devices that run a subgroup of 8 lanes: a workgroup is such a subgroup,
+// its lanes fetch the points together, and the straight code that follows reads each of them once for all lanes. 0:
+// blocks of any size, one lane per row, points from the texture caches.
 layout(constant_id = kIdEntries) const uint kEntries = 0u;
 
 RELIEF_TABLE(kPosePoints, vec4, pointAt)

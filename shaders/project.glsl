@@ -3,8 +3,8 @@ layout(constant_id = kIdIsPlaced) const bool kIsPlaced = false;
 
 vec3 worldNormal(vec3 normal) { return kIsPlaced ? inputs.view.normalToWorld * normal : normal; }
 
-// The crack picture: vertices move aside when the parity of their position's bits is odd. Two samples that are meant to be one
-// and differ in the last place then part visibly.
+// The crack picture: vertices move aside when the parity of their position's bits is odd. Two samples that are meant to
+// be one and differ in the last bit then separate visibly.
 vec3 splitByParity(vec3 q) {
     uvec3 bits = floatBitsToUint(q);
     return (bitCount(bits.x ^ bits.y ^ bits.z) & 1) != 0 ? q + inputs.view.crackShift : q;

@@ -68,7 +68,7 @@ LimitFrame regular(ControlPoints points, vec2 uv) {
     return f;
 }
 
-// The same for texture coordinates: two components, first derivatives.
+// The frame of the texture coordinates on such a patch: two components, first derivatives.
 LimitFrame regularTexture(ControlPoints points, vec2 uv) {
     CurveWeights u, v;
     regularWeights(uv, points.boundary, u, v);

@@ -8,8 +8,8 @@ layout(local_size_x = 64) in;
 RELIEF_TABLE(kBindEdgeHeights, float, edgeHeightRange)
 
 // Length in pixels of the displaced edge seen face-on from its distance: direction does not shorten it, so silhouettes
-// keep their detail. Between the samples heights may go up and down unseen: once through all their range is
-// counted.
+// keep their detail. Heights between the samples are not seen: the edge counts as at least as long as if they went once
+// through their whole range.
 float pixelLength(uint edge) {
     const uint pieces = 4u;
     float pixels = 0.0, straight = 0.0, middle = 0.0;

@@ -88,7 +88,7 @@ RELIEF_SHARED_FUNCTION uint ringTriangles(uint sideCount, uint sum, uvec2 n) {
     return sum;
 }
 
-// Triangles that touch no side.
+// Triangles of the cells: between inner samples alone.
 RELIEF_SHARED_FUNCTION uint cellTriangles(uint sideCount, uvec2 n) {
     if (sideCount == 3u) return (n.x - 3u) * (n.x - 3u);
     return 2u * (n.x - 2u) * (n.y - 2u);

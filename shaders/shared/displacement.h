@@ -27,13 +27,13 @@ RELIEF_SHARED_FUNCTION real2 heightGradient(real2 gradientST, real2x2 J) {
 RELIEF_SHARED_FUNCTION real3 displacedPoint(real3 p, real3 n, real h) { return p + h * n; }
 
 // n_u = (I - n n^T)(p_uu x p_v + p_u x p_uv) / |p_u x p_v|: the derivative of (p_u x p_v)/|p_u x p_v|.
-// The same with (p_uv, p_vv) in place of (p_uu, p_uv) gives n_v.
+// With (p_uv, p_vv) in place of (p_uu, p_uv) this formula gives n_v.
 RELIEF_SHARED_FUNCTION real3 normalDerivative(real3 n, real area, real3 pu, real3 pv, real3 dpu, real3 dpv) {
     real3 c = cross(dpu, pv) + cross(pu, dpv);
     return (c - n * dot(n, c)) / area;
 }
 
-// Derivative of the area |p_u x p_v| of the same: n . (p_uu x p_v + p_u x p_uv).
+// Derivative of the area |p_u x p_v| by u: n . (p_uu x p_v + p_u x p_uv); by v with (p_uv, p_vv).
 RELIEF_SHARED_FUNCTION real areaDerivative(real3 n, real3 pu, real3 pv, real3 dpu, real3 dpv) {
     return dot(n, cross(dpu, pv) + cross(pu, dpv));
 }
@@ -52,9 +52,9 @@ RELIEF_SHARED_FUNCTION real3 displacedTangent(real3 pu, real3 n, real3 nu, real 
 #endif
 }
 
-// Heights that stretch with the surface are sigma h with sigma = sqrt(A / A0), A = |p_u x p_v| here and A0 at rest; then
-// (sigma h)_u = sigma h_u + sigma h (log sigma)_u with (log sigma)_u = (A_u / A - A0_u / A0) / 2. No more than kMostStretch:
-// where the rest pose has no area there is no ratio.
+// Heights that stretch with the surface are sigma h with sigma = sqrt(A / A0), A = |p_u x p_v| here and A0 at rest;
+// then (sigma h)_u = sigma h_u + sigma h (log sigma)_u with (log sigma)_u = (A_u / A - A0_u / A0) / 2. No more than
+// kMostStretch: where the rest pose has no area there is no ratio.
 const real kMostStretch = 4.0;
 
 RELIEF_SHARED_FUNCTION real stretchOf(real area, real restArea) {

@@ -43,14 +43,14 @@ struct Rates {
 };
 
 struct View {
-    mat4 toClip; // from positions
-    mat4 fromClip; // to positions
+    mat4 toClip;        // from positions
+    mat4 fromClip;      // to positions
     mat4 toClipBefore;  // of the frame that motion is measured from
     mat3 normalToWorld; // a rotation; kIsPlaced: it is not the identity
     vec3 eye;
     ivec2 pictureSize;
     vec3 crackShift; // kPassCracks: where vertices of odd parity move, see project.glsl
-    uint instance;   // number of the model that is drawn
+    uint instance;   // number of the instance that is drawn
 };
 
 struct Light {

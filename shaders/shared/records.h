@@ -7,16 +7,16 @@
 //              sides[3]                     cageFace                 -                          -
 //   Edge       face:28 side:2 flags:2       corners[0]:30 span:2     corners[1]:30 partner:2    first incidence, kNoIncidence: smooth
 //   Corner     face:28 side:2 flags:2       isMiddle:1 incidences:31    first incidence                -
-//   Incidence      face                         side:8 count:24          start                      end
-//   Patch      its control points                     base                     base of texture points     type:4 type of texture:4
+//   Incidence  face                         side:8 count:24          start                      end
+//   Patch      first texel of indices       base                     base of texture points     type:4 type of texture:4
 //                                                                                               boundary:5 of texture:5 texels:6
 //                                                                                               straight corners:4
 // clang-format on
 //
-// Incidences are counted from the first one. `count` is how many incidences the edge has, in its first; at a corner it is
-// Surface::sectorFaces of the incidence. The control points of a patch are the texel where the numbers of its control points begin,
-// less its base, eight 16-bit numbers per texel; those of its texture coordinates follow after `texels` texels. Where the
-// points of a patch are too far apart for 16 bits all patches have a base of 0 and four 32-bit numbers per texel
+// Incidences are counted from the first one. `count` is how many incidences the edge has, in its first; at a corner it
+// is Surface::sectorFaces of the incidence. A patch has the texel where the indices of its control points begin: each
+// less its base, eight 16-bit numbers per texel; those of its texture coordinates follow after `texels` texels. Where
+// the indices of a patch are too far apart for 16 bits all patches have a base of 0 and four 32-bit numbers per texel
 // (kHasWideIndices).
 #ifndef RELIEF_SHARED_RECORDS_H
 #define RELIEF_SHARED_RECORDS_H

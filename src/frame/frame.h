@@ -25,7 +25,7 @@ struct Camera {
     double fieldOfView = 30, nearDistance = 0.1, farDistance = 10;
 };
 
-/// Points that outline a displaced surface: a few a face, for framing. Uses the reference evaluator.
+/// Points that outline a displaced surface: a few per face, for framing. Uses the reference evaluator.
 std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map);
 
 /// A camera that holds all `points` with a small margin.
@@ -37,7 +37,7 @@ void fitDepth(Camera& camera, const Bounds& bounds);
 /// What rates are measured from, for a picture of that many rows.
 View viewOf(const Camera& camera, int height);
 
-/// Unit vector at azimuth and elevation in degrees, from the origin towards that place.
+/// Unit vector from the origin towards an azimuth and elevation in degrees.
 dvec3 directionAt(double azimuth, double elevation);
 
 /// An equirectangular environment on the host, ready to light with.
@@ -135,10 +135,10 @@ struct Picture {
     std::vector<std::uint16_t> halves; ///< RGBA as IEEE half floats, from the top row
     bool isDisplayReferred = false;
     std::vector<Layer> layers;      ///< that were asked for
-    std::vector<float> layerValues; ///< kLayerChannels a pixel (shared/scene.h), from the top row; empty without layers
+    std::vector<float> layerValues; ///< kLayerChannels per pixel (shared/inputs.h), from the top row; may be empty
     FrameStats stats;
 
-    [[nodiscard]] Image image() const; ///< the same as floats, 4 channels
+    [[nodiscard]] Image image() const; ///< the pixels as 32-bit floats, 4 channels
 };
 
 struct RendererDesc {
@@ -161,7 +161,7 @@ public:
 
     /// Pixels that see a crack, of a closed surface: front faces count up and back faces down along each line of sight,
     /// which adds up to nothing however the surface folds. Before that, vertices whose position has bits of odd parity
-    /// move aside by `shift` (cage units), so that two samples that differ in the last place part visibly.
+    /// move aside by `shift` (cage units), so that two samples that differ in the last bit separate visibly.
     std::uint64_t crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift);
 
 private:

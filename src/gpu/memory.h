@@ -101,7 +101,7 @@ TexelBuffer uploadTexels(Device& device, const BufferDesc& desc, VkFormat format
 /// Copies the first bytes of a buffer made with VK_BUFFER_USAGE_TRANSFER_SRC_BIT to the host, and waits for it.
 void downloadBytes(Device& device, const Buffer& buffer, std::span<std::byte> data);
 
-/// The same copy as a part of other commands, which saves a wait.
+/// Copies the first bytes of a buffer to the host as a part of other commands, which saves a wait.
 class Download {
 public:
     Download(Device& device, std::uint64_t bytes);

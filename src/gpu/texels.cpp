@@ -15,7 +15,7 @@ std::uint64_t texelBytes(VkFormat format) {
     }
 }
 
-/// Both usages: the way of reading is the device's, the buffer is the same.
+/// Adds both usages, so that a buffer does not depend on how the device reads tables.
 BufferDesc toTableDesc(BufferDesc desc) {
     desc.usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     return desc;

@@ -15,7 +15,7 @@ public:
 
     explicit PendingUploads(Device& device) : device_(device) {}
 
-    /// The layout of all of a new texture.
+    /// Changes the layout of `range`, all of a new texture, to GENERAL.
     void toGeneral(const Texture& texture, const VkImageSubresourceRange& range);
     void fill(const Buffer& target, std::span<const std::byte> data);
     /// `regions` say where in `data` the texels of each mip are.

@@ -6,7 +6,7 @@
 namespace relief {
 namespace {
 
-constexpr int kBlock = 8; ///< texels a side of the smallest squares
+constexpr int kBlock = 8; ///< texels per side of the smallest squares
 
 /// Where control points of one patch lie, in as many dimensions as needed.
 template <typename V>

@@ -31,8 +31,8 @@ MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
     return record;
 }
 
-/// Half edges around n-gons are half as long as cage edges, and so are the sides of an n-gon's corner quads that meet
-/// at its centre.
+/// Halves of split edges around n-gons are half as long as cage edges, and so are the sides of an n-gon's corner quads
+/// that meet at its centre.
 std::vector<bool> findHalfEdges(const Surface& surface) {
     const auto isHalf = [&](std::uint32_t edge) { return surface.edges[edge].partner != edge; };
     std::vector<bool> halves(surface.edges.size(), false);

@@ -58,8 +58,7 @@ struct SurfaceModel {
     // On the device.
     TexelBuffer recordTable, treeTable, texPointTable;
     PointSets points;
-    pass::ModelTables
-        tables{}; ///< where records begin; those of points, of maps and of dicing are filled by describe()
+    pass::ModelTables tables{}; ///< where records begin; describe() fills in points and maps, Dicer what dicing needs
     std::optional<GpuHeightMap> height;
     std::optional<AlbedoMap> albedo;
     std::uint64_t byteCount = 0; ///< resident on the device: buffers and textures
@@ -103,7 +102,7 @@ struct MeshModelDesc {
     const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
 };
 
-/// A triangle mesh as it is: a dense one, the opponent of every comparison.
+/// A triangle mesh as it is: what displaced surfaces are compared with.
 struct MeshModel {
     MeshModel(Device& device, const MeshModelDesc& desc);
 

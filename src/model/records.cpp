@@ -61,7 +61,7 @@ void appendIncidences(std::vector<std::uint32_t>& words, const Surface& surface)
     }
 }
 
-/// Numbers of control points, in texels that begin with whole ones.
+/// The records of patches and the indices of their control points; those of each patch begin at a whole texel.
 class PatchWriter {
 public:
     explicit PatchWriter(const Surface& surface) : surface_(surface) {
@@ -71,7 +71,7 @@ public:
 
     [[nodiscard]] bool isWide() const { return isWide_; }
 
-    /// The patches, and after them their patches.
+    /// Appends the patches, and after them the indices of their control points.
     void append(std::vector<std::uint32_t>& words) const {
         auto texel = std::uint32_t(words.size() / 4 + surface_.patches.size());
         for (const Patch& patch : surface_.patches) {

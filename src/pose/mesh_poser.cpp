@@ -25,7 +25,7 @@ struct MeshPoser::Parts {
     MeshModel& model;
     PosePush push;
     TexelBuffer rest, joints, influences, upload;
-    Buffer staging; ///< of vertices that the processor has posed
+    Buffer staging; ///< of vertices that the host has posed
     Pipeline pipeline;
     BindingSet set;
 };

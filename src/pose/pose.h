@@ -22,9 +22,9 @@ struct StencilClass {
 struct StencilBlocks {
     std::vector<StencilClass> classes;  ///< of all blocks but those of shared rows
     std::vector<std::uint32_t> firsts;  ///< first entry of each block, one more at the end
-    std::vector<std::uint32_t> targets; ///< rows, kBlockRows a block; kNoPatch past the last one
+    std::vector<std::uint32_t> targets; ///< rows, kBlockRows per block; kNoPatch past the last one
     std::vector<std::uint32_t> entries; ///< points; those that fill up an eight repeat the block's first
-    std::vector<float> weights;         ///< kBlockRows an entry
+    std::vector<float> weights;         ///< kBlockRows per entry
     /// The first blocks, of shared rows and in no class: the others may need what they make.
     std::uint32_t sharedBlockCount = 0;
 
@@ -96,7 +96,7 @@ public:
 
     /// Skins positions and normals on the device.
     void pose(const Pose& pose);
-    /// Sends positions and normals that the processor has posed; returns the bytes that went there.
+    /// Uploads positions and normals that the host has posed; returns the bytes uploaded.
     std::uint64_t upload(std::span<const vec3> positions, std::span<const vec3> normals);
 
 private:

@@ -36,7 +36,7 @@ struct Poser::Parts {
     struct PointsPass {
         Pipeline pipeline;
         std::uint32_t firstBlock = 0, endBlock = 0, firstEntry = 0,
-                      entryCount = 0; ///< entryCount 0: any number a block
+                      entryCount = 0; ///< entryCount 0: any number per block
         bool isShared = false;        ///< later passes read what it makes
     };
     std::vector<PointsPass> passes;

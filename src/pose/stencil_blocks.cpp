@@ -65,7 +65,7 @@ std::vector<Draft> drafts(const Stencils& stencils, std::uint32_t firstRow, std:
     return all;
 }
 
-/// `placeOf` holds the place of each of the draft's points.
+/// `placeOf` is room for the index of each of the draft's points within the block.
 void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uint32_t>& placeOf,
               StencilBlocks& blocks) {
     const std::size_t first = blocks.entries.size();

@@ -15,7 +15,7 @@ struct Capturer::Parts {
     Device& device;
     PassResources resources;
     Dicer dicer;
-    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything that tells two of them apart
+    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything in which two of them may differ
 };
 
 namespace {

@@ -6,7 +6,7 @@
 namespace relief {
 namespace {
 
-/// The places around a face where vertices of corners sit: corner s is slot s, the middle of side s slot 4 + s.
+/// Slots around a face for the vertices of corners: corner s is slot s, the middle of side s slot 4 + s.
 constexpr std::uint32_t kSlots = 8;
 
 class TableBuilder {

@@ -10,15 +10,15 @@ struct DiceTable {
     std::vector<VertexRun> runs; ///< those of corners first
     std::uint32_t cornerRunCount = 0;
     std::uint32_t firstSmoothRun = 0; ///< from here on: of smooth edges whose owner is one bicubic patch
-    std::vector<FaceRuns> faceRuns;   ///< one a face
+    std::vector<FaceRuns> faceRuns;   ///< one per face
     TexelBuffer texels;               ///< runs, then those around faces
     std::uint32_t firstFaceRuns = 0;
 };
 
-/// Vertices of an edge or corner are repeated where its faces' normals or texture coordinates part.
+/// Vertices of an edge or corner are repeated where its faces' normals or texture coordinates differ.
 DiceTable makeDiceTable(Device& device, const SurfaceModel& model);
 
-/// One a vertex of a diced mesh: whether it lies on an edge of the cage that has one drawn face.
+/// One per vertex of a diced mesh: whether it lies on an edge of the cage that has one drawn face.
 std::vector<char> boundaryVertices(const DiceTable& table, const SurfaceModel& model, const DicedMesh& mesh);
 
 } // namespace relief

@@ -12,8 +12,8 @@ namespace {
 /// The tessellator's concentric triangles, all sides with n segments.
 std::uint64_t evenTriangle(std::uint64_t n) { return n % 2 == 0 ? 3 * n * n / 2 : (3 * n * n - 1) / 2; }
 
-/// Vertices inside a tessellated triangle with n segments a side: the ring of the triangle two segments smaller, and so
-/// on.
+/// Vertices inside a tessellated triangle with n segments per side: the ring of the triangle two segments smaller, and
+/// so on.
 std::uint64_t insideTriangle(std::uint64_t n) {
     return n < 3 ? n - 1 : 3 * (n - 2) + (n == 3 ? 0 : insideTriangle(n - 2));
 }

@@ -9,7 +9,7 @@
 
 namespace relief {
 
-/// The triangles that the grid path draws at `rate` segments an edge, by the reference evaluator, with full normals;
+/// The triangles that the grid path draws at `rate` segments per edge, by the reference evaluator, with full normals;
 /// faces share no vertices. For surfaces of four-sided faces.
 DenseMesh denseMesh(const ReferenceSurface& surface, const HeightMap* map, int rate);
 
@@ -20,7 +20,7 @@ enum class Spacing { equal, fractional };
 
 struct TriangleOptions {
     Path path = Path::tessellation;
-    std::optional<int> rate; ///< segments a cage edge, the same for all ...
+    std::optional<int> rate; ///< segments per cage edge, the same for all ...
     double edgePixels = 2;   ///< ... or as many as make segments this long on screen
     Spacing spacing = Spacing::equal;
     bool filtersHeights = true; ///< heights from the mips whose texels are as large as the segments
@@ -37,7 +37,7 @@ struct View {
     float pixelsAtUnitDistance = 1; ///< of something one unit long at one unit's distance
 };
 
-/// One rate an edge: whole numbers of segments, or with fractional spacing any number from 1.
+/// One rate per edge: whole numbers of segments, or with fractional spacing any number from 1.
 struct EdgeRates {
     std::vector<float> rates;
     Spacing spacing = Spacing::equal;
@@ -52,7 +52,7 @@ struct EdgeRates {
 /// n-gons.
 std::vector<float> uniformRates(const SurfaceModel& model, float rate);
 
-/// Measures displaced edges on the device. Shaders are compiled once for a kind of model.
+/// Measures displaced edges on the device. Shaders are compiled once per kind of model.
 class EdgeRater {
 public:
     explicit EdgeRater(Device& device);
@@ -78,9 +78,9 @@ FaceSegments faceSegments(const SurfaceModel& model, const EdgeRates& rates, std
 
 // --- draws --------------------------------------------------------------------------------------------------------
 
-/// One a face: false where it is hidden with certainty: its box is outside what `worldToClip` shows, or all its normals
-/// point away and the near plane cuts nothing of a closed surface. `rates`: those that it is drawn with, for the mip
-/// levels of its heights; by default level 0.
+/// One per face: false where it is hidden with certainty: its box is outside what `worldToClip` shows, or all its
+/// normals point away and the near plane cuts nothing of a closed surface. `rates`: those that it is drawn with, for
+/// the mip levels of its heights; by default level 0.
 std::vector<char> visibleFaces(const SurfaceModel& model, const mat4& worldToClip, const View& view,
                                const EdgeRates& rates = {});
 
@@ -114,11 +114,11 @@ std::uint64_t dicedTriangles(std::span<const std::uint32_t> sideRates);
 // --- diced meshes -------------------------------------------------------------------------------------------------
 
 /// An indexed mesh on the device: every distinct sample of the surface once, repeated with the same position bits only
-/// where normals or texture coordinates part.
+/// where normals or texture coordinates differ.
 struct DicedMesh {
     TexelBuffer vertices;                      ///< two texels each: position and height, normal
     TexelBuffer texCoords;                     ///< empty unless asked for
-    Buffer indices;                            ///< three 32-bit indices a triangle, face after face
+    Buffer indices;                            ///< three 32-bit indices per triangle, face after face
     std::vector<std::uint32_t> firstTriangles; ///< of each face; one more at the end
     std::vector<std::uint32_t> faceRates;      ///< the largest around each face
     std::vector<std::uint32_t> runFirsts;      ///< first vertex of each run along edges; one more at the end
@@ -144,7 +144,7 @@ public:
 
     /// Throws Failure::device when the mesh would take more than the memory allowed, before anything is allocated.
     DicedMesh dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
-    /// The same read back.
+    /// Dices the surface and reads the mesh back to host memory. Throws as dice() does.
     DenseMesh diceToHost(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
 
     struct Parts;
@@ -153,7 +153,7 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// The same on the host: ready to be written.
+/// Copies a diced mesh to host memory, ready to be written to a file.
 DenseMesh readBack(Device& device, const DicedMesh& mesh);
 
 // --- captured triangles -------------------------------------------------------------------------------------------
@@ -161,11 +161,11 @@ DenseMesh readBack(Device& device, const DicedMesh& mesh);
 /// The triangles that a path makes, as the device made them.
 struct CapturedMesh {
     std::vector<vec3> positions;
-    std::vector<char> isOnBoundary;     ///< one a vertex: it lies on an edge of the cage that has one drawn face
-    std::vector<std::uint32_t> indices; ///< three a triangle
+    std::vector<char> isOnBoundary;     ///< one per vertex: it lies on an edge of the cage that has one drawn face
+    std::vector<std::uint32_t> indices; ///< three per triangle
 };
 
-/// Reads triangles back. Shaders are compiled once for a kind of model.
+/// Reads triangles back. Shaders are compiled once per kind of model.
 class Capturer {
 public:
     explicit Capturer(Device& device);
@@ -195,7 +195,7 @@ struct SampleOptions {
     bool isGenericBasis = false; ///< OpenSubdiv's own basis for all patches: slower, the check of the others
 };
 
-/// The device's own frames at single points. Shaders are compiled once for a kind of model.
+/// The device's own frames at single points. Shaders are compiled once per kind of model.
 class SurfaceSampler {
 public:
     explicit SurfaceSampler(Device& device);
