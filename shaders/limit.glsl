@@ -22,6 +22,14 @@
 #include "osd_patch_basis.glsl"
 #endif
 
+layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false; // else a face's own (u,v) stand in for them
+layout(constant_id = kIdHasHeight) const bool kHasHeight = false;
+layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false; // something shades with them
+
+// Where this is false all that evaluates texture coordinates folds away when a pipeline is made. A function, for Mesa 22.3's
+// CPU driver makes no pipeline of a constant that is computed from specialization constants.
+bool readsTexCoords() { return kHasTexCoords && (kHasHeight || kWantsTexCoords); }
+
 layout(constant_id = kIdGenericBasis) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
 
 struct LimitFrame {
@@ -64,10 +72,12 @@ Leaf findLeaf(uint face, vec2 uv) {
     return leaf;
 }
 
+bool isTexture(ControlPoints points) { return readsTexCoords() && points.array == kTexturePoints; }
+
 // Control point k of a patch of the surface, or of the texture coordinates on it (in x and y).
 vec3 controlPoint(ControlPoints points, uint k) {
     uint i = RELIEF_POINT_INDEX(points, k);
-    if (points.array == kTexturePoints) return vec3(RELIEF_TEX_POINT(i), 0.0);
+    if (isTexture(points)) return vec3(RELIEF_TEX_POINT(i), 0.0);
     return RELIEF_POINT(points, i);
 }
 
@@ -108,7 +118,7 @@ LimitFrame patchFrame(ControlPoints points, vec2 uv) {
     if (kGenericBasis) return generic(points, uv);
 #endif
     if (points.type == kPatchRegular) {
-        if (points.array == kTexturePoints) return regularTexture(points, uv);
+        if (isTexture(points)) return regularTexture(points, uv);
         return regular(points, uv);
     }
     if (points.type == kPatchQuads) return bilinear(points, uv);

@@ -5,10 +5,6 @@
 #include "corners.glsl"
 #include "shared/displacement.h"
 
-layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false; // else a face's own (u,v) stand in for them
-layout(constant_id = kIdHasHeight) const bool kHasHeight = false;
-layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false; // something shades with the face's own texture coordinates
-
 // A point of the limit surface, not displaced yet.
 struct SurfacePoint {
     LimitFrame frame;
@@ -95,7 +91,7 @@ PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsText
 }
 
 SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
-    bool hasTexture = wantsTexture && kHasTexCoords && (kHasHeight || kWantsTexCoords);
+    bool hasTexture = wantsTexture && readsTexCoords();
     bool hasRest = kStretches && wantsTexture && kHasHeight;
     PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
     SurfacePoint point;

@@ -100,7 +100,7 @@ Coordinates keyCoordinates(const Coordinates& cage, const Bounds& firstKey) {
 }
 
 void checkFps(double fps) {
-    if (!(fps >= 1e-3 && fps <= 1e6)) fail(Failure::usage, "{} frames a second; 0.001 to 1000000 are possible", fps);
+    if (!(fps >= 1e-3 && fps <= 1e6)) fail(Failure::usage, "{} frames per second; 0.001 to 1000000 are possible", fps);
 }
 
 std::unique_ptr<Animation> animateKeys(std::unique_ptr<KeyReader> reader, KeyTimes times, const KeyUse& use) {

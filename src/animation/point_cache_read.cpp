@@ -81,8 +81,9 @@ void checkPointCount(const std::string& path, std::uint32_t count, std::size_t e
         fail(Failure::input,
              "{}: the file looks byte-swapped ({} points, the cage has {}); .pc2 is little endian, .mdd big", path,
              std::int32_t(count), expected);
-    fail(Failure::input, "{}: there are {} points a frame, the cage has {}; use the cage that the cache was made from",
-         path, std::int32_t(count), expected);
+    fail(Failure::input,
+         "{}: there are {} points per frame, the cage has {}; use the cage that the cache was made from", path,
+         std::int32_t(count), expected);
 }
 
 void checkFrameCount(const std::string& path, std::uint32_t count) {

@@ -39,7 +39,7 @@ private:
     void checkFinite(const vec4& numbers, const char* what, std::uint32_t node, double seconds) const {
         for (int k = 0; k < 4; ++k)
             if (!std::isfinite(numbers[k]))
-                fail(Failure::input, "{}: the {} of node {} cannot be told by floats at {} s", path_, what, node,
+                fail(Failure::input, "{}: the {} of node {} is too large for floats at {} s", path_, what, node,
                      seconds);
     }
 

@@ -211,7 +211,7 @@ Cage readGltfCage(const std::string& path, const Warn& warn) {
     warnOfCoarseFloats(builder.coarsestSpacing, bounds.diagonal(), path, warn);
     for (const std::uint32_t node : scene.meshNodes) builder.addNode(node);
     if (builder.degenerateCount > 0)
-        warn(fmt::format("{}: {} triangles with two corners at one place are left out", path, builder.degenerateCount));
+        warn(fmt::format("{}: {} triangles with two corners that coincide are skipped", path, builder.degenerateCount));
     const bool isOneNamelessPart =
         cage.parts.size() == 1 && cage.parts[0].name.empty() && cage.parts[0].material.empty();
     if (isOneNamelessPart) cage.parts.clear();

@@ -41,7 +41,7 @@ void checkTriangles(const TriangleView& triangles) {
                  triangles.indices[i], std::ptrdiff_t(triangles.positions.size()) - 1);
     if (triangles.indices.empty() || triangles.indices.size() % 3 != 0)
         fail(Failure::input,
-             "a surface to measure has three indices a triangle and a triangle at least, not {} indices",
+             "a surface to measure has three indices per triangle and a triangle at least, not {} indices",
              triangles.indices.size());
 }
 

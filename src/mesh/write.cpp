@@ -54,7 +54,7 @@ void checkMesh(const DenseMesh& mesh, const std::string& path) {
         mesh.indices.size() % 3 != 0)
         fail(Failure::input,
              "{}: not written: {} positions, {} normals, {} texture coordinates, {} indices; expected one of each a "
-             "vertex and three indices a triangle",
+             "vertex and three indices per triangle",
              path, count, mesh.normals.size(), mesh.texCoords.size(), mesh.indices.size());
     for (std::size_t i = 0; i < mesh.indices.size(); ++i)
         if (mesh.indices[i] >= count)

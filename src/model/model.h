@@ -120,8 +120,6 @@ struct MeshModel {
 /// What a picture can be drawn of.
 using Model = std::variant<SurfaceModel, MeshModel>;
 
-inline bool isMesh(const Model& model) { return std::holds_alternative<MeshModel>(model); }
-inline const SurfaceModel* surfaceOf(const Model& model) { return std::get_if<SurfaceModel>(&model); }
 /// Bytes resident on the device.
 inline std::uint64_t byteCountOf(const Model& model) {
     return std::visit([](const auto& either) { return either.byteCount; }, model);

@@ -134,7 +134,7 @@ SurfaceRecords recordsOf(const Surface& surface) {
     if (surface.faces.size() >= kMostFaces || surface.corners.size() >= kMostCorners ||
         std::accumulate(surface.edges.begin(), surface.edges.end(), 0u, mostIncidences) >= kMostEdgeIncidences)
         fail(Failure::input,
-             "a surface of {} faces and {} corners is more than {} faces, {} corners or {} faces an edge",
+             "a surface of {} faces and {} corners is more than {} faces, {} corners or {} faces per edge",
              surface.faces.size(), surface.corners.size(), kMostFaces, kMostCorners, kMostEdgeIncidences);
     SurfaceRecords records;
     std::vector<std::uint32_t>& words = records.words;

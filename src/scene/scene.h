@@ -1,4 +1,4 @@
-// What a command line or a scene file asks for, as plain values, and the same loaded: object, camera, light.
+// What a command line asks for, as plain values, and the same loaded: object, camera, light.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// The words of what a scene asks for: one table per enumeration, for the command line, scene files and windows.
+// The words of what a scene asks for: one table per enumeration, for option words, help and messages.
 #pragma once
 
 #include "animation/animation.h"

@@ -72,7 +72,7 @@ TEST(PointCacheErrors, nameFilesThatCannotBeRead) {
 TEST(PointCacheErrors, tellFilesOfAnotherKind) {
     expectRefused(pc2().with(0, "POINTCACHE3"), {"no .pc2", "POINTCACHE2"});
     expectRefused({"a.pc2", mdd().bytes}, {"no .pc2"});
-    expectRefused({"a.mdd", pc2().bytes}, {"points a frame", "the cage has 8"});
+    expectRefused({"a.mdd", pc2().bytes}, {"points per frame", "the cage has 8"});
     expectRefused({"a.pc2", "v 0 0 0\n"}, {"no .pc2"});
     expectRefused(pc2().with(12, word(2u, kLittle)), {"version 2", "only 1"});
     expectRefused(pc2().with(12, word(0xffffffffu, kLittle)), {"version -1"});

@@ -184,7 +184,7 @@ TEST(PointCache, refusesOtherNamesAndRates) {
     writeFrames(folder / "a.PC2", cage, 2);
     EXPECT_EQ(readQuietly(folder / "a.PC2", cage)->pose(0).positions.size(), 8u);
     for (const double fps : {0.0, -24.0, 1e-4, 1e7, std::nan("")})
-        expectFailure(Failure::usage, {"frames a second", "0.001"},
+        expectFailure(Failure::usage, {"frames per second", "0.001"},
                       [&] { readQuietly(folder / "a.PC2", cage, {.fps = fps}); });
 }
 
@@ -254,7 +254,7 @@ TEST(PointCacheWriting, refusesHeadersThatTheFormatCannotHold) {
     refuse("a.pc2", {1, 1, 0.1}, {"start frame 0.1"});
     refuse("a.pc2", {1, 1, 16777217}, {"start frame 16777217"});
     refuse("a.mdd", {1, 3, 16777216, 1}, {"frame 16777217", "16777216 seconds"});
-    expectFailure(Failure::usage, {"frames a second"}, [&] {
+    expectFailure(Failure::usage, {"frames per second"}, [&] {
         writePointCache(folder / "a.mdd", {1, 1, 0, 0}, [](std::uint32_t) { return std::vector<vec3>(1); });
     });
     EXPECT_EQ(folder.fileCount(), 0u);

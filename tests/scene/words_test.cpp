@@ -1,4 +1,4 @@
-// The tables of words: command lines, scene files and windows rely on them.
+// The tables of words: options, help and messages rely on them.
 #include <set>
 
 #include "scene/scene.h"
