@@ -204,7 +204,7 @@ TEST(GltfCage, leavesOutDegenerateTrianglesAndSaysSo) {
     Warnings warnings;
     EXPECT_EQ(readFileOf(file, warnings.warn()).faceCount(), 1u);
     EXPECT_EQ(warnings.lines.size(), 1u);
-    EXPECT_TRUE(warnings.has("2 triangles with two corners at one place"));
+    EXPECT_TRUE(warnings.has("2 triangles with two corners that coincide are skipped"));
 }
 
 TEST(GltfCage, takesOnlyTheSceneThatIsShown) {
