@@ -179,7 +179,7 @@ bool isEmpty(const std::string& key, const json& value) {
 
 void printRow(std::string name, const std::string& text) {
     std::ranges::replace(name, '_', ' ');
-    std::cout << fmt::format("  {:40} {}\n", name, onOneLine(text));
+    std::cout << fmt::format("  {:28} {}\n", name, onOneLine(text));
 }
 
 /// Prints one `name  value` per line, in the JSON's words, and one line per limit. Zeros and what is empty are omitted.
