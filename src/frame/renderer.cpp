@@ -1,15 +1,12 @@
 #include "frame/renderer_parts.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+
+#include "base/clock.h"
 
 namespace relief {
 namespace {
-
-double secondsNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 SamplerDesc clampedSampler(VkFilter filter) {
     return {.filter = filter,
@@ -75,8 +72,6 @@ void Renderer::Parts::describeView(Frame& frame) {
     useEnvironment(frame);
     frame.inputs.material = frame.materials.front();
     frame.inputs.targets.picture = targets.picture.address;
-    frame.inputs.targets.materials = frame.materialTable.address;
-
     frame.bindings[kBindShadow] = {.view = targets.shadow.view.get(), .sampler = nearest.get()};
     frame.bindings[kBindDepths] = {.view = targets.depths.view.get(), .sampler = nearest.get()};
     frame.bindings[kBindNormals] = {.view = targets.normals.view.get(), .sampler = nearest.get()};
@@ -127,7 +122,6 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
         frame.materials.push_back(
             {.albedo = instance.material.albedo, .roughness = std::clamp(instance.material.roughness, 0.05f, 1.0f)});
     while (inputBuffers.size() < instances.size() + 1) inputBuffers.push_back(makeInputBuffer(device));
-    frame.drawn.reserve(instances.size());
     frame.drawn.resize(instances.size());
     const TextureDesc& marks = targets.instances.desc;
     if (frame.hasInstances() && uvec2(marks.width, marks.height) != size())

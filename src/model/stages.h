@@ -82,6 +82,9 @@ private:
 void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindings);
 void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings);
 
+/// Workgroups that one dispatch may have on every device.
+inline constexpr std::uint32_t kGroupsAtOnce = 65535;
+
 /// Records the push constants of a pass.
 template <typename Push>
 void pushConstants(VkCommandBuffer commands, const Pipeline& pipeline, const Push& block) {

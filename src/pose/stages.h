@@ -10,8 +10,7 @@
 
 namespace relief {
 
-constexpr std::uint32_t kGroupsAtOnce = 65535; ///< of a dispatch, in every device
-constexpr std::uint32_t kFloatsPerJoint = 12;  ///< three rows: joints are affine
+constexpr std::uint32_t kFloatsPerJoint = 12; ///< three rows: joints are affine
 
 inline PipelineLayoutDesc poseLayout(const Device& device) {
     return tableLayout(device, kPoseBindCount, sizeof(PosePush));

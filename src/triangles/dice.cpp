@@ -11,9 +11,8 @@
 namespace relief {
 namespace {
 
-constexpr std::uint32_t kTileSamples = 1024;   ///< of the insides of faces: enough for one load of control points
-constexpr std::uint32_t kGroupsAtOnce = 65535; ///< of a dispatch, in every device
-constexpr std::uint64_t kVertexBytes = 32;     ///< position and height, normal
+constexpr std::uint32_t kTileSamples = 1024; ///< of the insides of faces: enough for one load of control points
+constexpr std::uint64_t kVertexBytes = 32;   ///< position and height, normal
 
 std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
 
