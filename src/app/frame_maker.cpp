@@ -55,6 +55,7 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
     placeScene();
     if (polygons_) object.dense = polygons_->makeMesh(toSeconds(frames_.front(), desc.motion));
     makeModel();
+    checkFilter(args.picture, *device_, warn);
     renderer_ =
         std::make_unique<Renderer>(*device_, RendererDesc{.width = args.scene.size.x, .height = args.scene.size.y});
 }
@@ -88,6 +89,7 @@ void FrameMaker::makeModel() {
     object.heightEncoding = {};
     object.dense.reset();
     object.albedo.reset();
+    object.normalMap.reset();
     loaded_.environment.reset();
     malloc_trim(0);
 }
