@@ -1,5 +1,5 @@
-// Height maps and the displaced surface: loading, convention, encoding for the device, lookup, and the double-precision
-// reference of the displaced surface.
+// Height maps, normal maps and the displaced surface: loading, convention, encoding for the device, lookup, and the
+// double-precision reference of the displaced surface.
 #pragma once
 
 #include <array>
@@ -9,15 +9,13 @@
 
 #include "base/base.h"
 #include "displacement/height_census.h"
+#include "displacement/normal_map.h"
 #include "shared/maps.h"
 #include "surface/surface.h"
 
 namespace relief {
 
 // --- height maps --------------------------------------------------------------------------------------------------
-
-/// What a lookup outside [0,1] finds: the map again, or its border.
-enum class Wrap { repeat, clamp };
 
 /// Values and what they mean: h(s,t) = scale * (texel - mid), bilinear between texel centres. t points up, row 0 is the
 /// top of the picture.
