@@ -122,6 +122,16 @@ void SurfaceModel::setPoints(PointSets other) {
     normalBounds.clear();
 }
 
+std::vector<vec4> toTexels(const Tangents& tangents) {
+    std::vector<vec4> texels;
+    texels.reserve(2 * tangents.ps.size());
+    for (std::size_t i = 0; i < tangents.ps.size(); ++i) {
+        texels.emplace_back(tangents.ps[i], 0.0f);
+        texels.emplace_back(tangents.pt[i], 0.0f);
+    }
+    return texels;
+}
+
 namespace {
 
 /// What bends the normals of a mesh, and the tangents that it needs for that.
@@ -130,13 +140,9 @@ void uploadDetail(Device& device, const MeshModelDesc& desc, MeshModel& model) {
     if (desc.normalMap != nullptr) model.pictures.normalMap = uploadNormals(device, *desc.normalMap);
     std::vector<vec4> texels;
     if (model.pictures.needTangents()) {
-        const std::size_t count = desc.mesh->positions.size();
-        RELIEF_CHECK(desc.tangentsS.size() == count);
-        RELIEF_CHECK(desc.tangentsT.size() == count);
-        for (std::size_t i = 0; i < count; ++i) {
-            texels.emplace_back(desc.tangentsS[i], 0.0f);
-            texels.emplace_back(desc.tangentsT[i], 0.0f);
-        }
+        RELIEF_CHECK(desc.tangents != nullptr);
+        RELIEF_CHECK(desc.tangents->ps.size() == desc.mesh->positions.size());
+        texels = toTexels(*desc.tangents);
     }
     model.tangents = uploadTexels(device, {.name = "mesh tangents"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
 }

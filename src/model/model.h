@@ -128,10 +128,10 @@ struct SurfaceModel {
 
 struct MeshModelDesc {
     const DenseMesh* mesh = nullptr;
-    const HeightMap* bump = nullptr;            ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
-    const NormalMap* normalMap = nullptr;       ///< ... unless the map is of object space
-    std::span<const vec3> tangentsS, tangentsT; ///< per vertex: derivatives of positions by s and by t
-    const Image* albedo = nullptr;              ///< as SurfaceModelDesc::albedo
+    const HeightMap* bump = nullptr;      ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
+    const NormalMap* normalMap = nullptr; ///< ... unless the map is of object space
+    const Tangents* tangents = nullptr;   ///< of the mesh
+    const Image* albedo = nullptr;        ///< as SurfaceModelDesc::albedo
 };
 
 /// A triangle mesh as it is: what displaced surfaces are compared with.
@@ -147,6 +147,9 @@ struct MeshModel {
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
 };
+
+/// What MeshModel::tangents holds: p_s and p_t in turn, no slopes.
+std::vector<vec4> toTexels(const Tangents& tangents);
 
 // --- either -------------------------------------------------------------------------------------------------------
 

@@ -51,6 +51,13 @@ void checkMeshMaps(const LoadedObject& object, const ObjectDesc& desc) {
 
 } // namespace
 
+bool needsTangents(const ObjectDesc& object) {
+    const bool isBumped =
+        !object.height.path.empty() && (object.height.detail == Detail::bump || object.height.detail == Detail::both);
+    const NormalMapDesc& normalMap = object.material.normalMap;
+    return isBumped || (!normalMap.path.empty() && normalMap.space == NormalSpace::tangent);
+}
+
 std::vector<std::string> listFiles(const ObjectDesc& object) {
     return {object.cage,
             object.height.path,
@@ -98,6 +105,8 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     // What is drawn: the polygons or a surface of them.
     if (isDense) {
         object.dense = denseMesh(object.cage);
+        if (needsTangents(desc) && !object.dense->texCoords.empty())
+            object.dense = splitMirrored(std::move(*object.dense));
     } else {
         object.options = {.scheme = toScheme(subdivision), .isolation = desc.isolation};
         object.surface = buildNamedSurface(object, desc.cage);

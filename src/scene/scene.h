@@ -83,6 +83,9 @@ struct SceneDesc {
     LightingDesc lighting;
 };
 
+/// Whether normals are bent or turned along texture coordinates, by heights or by a normal map.
+bool needsTangents(const ObjectDesc& object);
+
 /// All files that are named: outputs must not replace them. Names are empty where nothing is asked for.
 std::vector<std::string> listFiles(const ObjectDesc& object);
 std::vector<std::string> listFiles(const SceneDesc& scene);
@@ -147,14 +150,15 @@ std::unique_ptr<Animation> loadAnimation(const MotionDesc& desc, const Cage& cag
 /// Polygons that are drawn themselves and move: posed on the host, because their normals are.
 class MovingPolygons {
 public:
-    /// The animation has to outlive it.
-    MovingPolygons(Cage rest, const Animation& animation);
+    /// The animation has to outlive it. `hasTangents`: meshes are split as Tangents need it.
+    MovingPolygons(Cage rest, const Animation& animation, bool hasTangents);
     /// The mesh at a time. Vertices and triangles have the same order at all times.
     [[nodiscard]] DenseMesh makeMesh(double seconds) const;
 
 private:
     Cage rest_;
     const Animation* animation_;
+    bool hasTangents_;
 };
 
 // --- on the device ------------------------------------------------------------------------------------------------
