@@ -46,6 +46,16 @@ struct HeightSample {
 /// CS 569 notes).
 HeightSample sampleHeight(const HeightMap& map, const dvec2& st);
 
+/// The slopes of a height map at each of its texels and those of its mips, down to a single texel: central differences
+/// over one texel of the level, so that bilinear lookups of them are those of sampleHeight().
+struct SlopeMap {
+    int width = 0, height = 0;
+    std::uint32_t levelCount = 0;
+    float unit = 1;                    ///< the largest of level 0, cage units per unit of s and t
+    std::vector<std::uint32_t> texels; ///< h_s / unit and h_t / unit as two halves, level after level, rows from the top
+};
+SlopeMap computeSlopes(const HeightMap& map);
+
 // --- encodings ----------------------------------------------------------------------------------------------------
 
 /// How the texels of a height map are stored on the device. Integers and blocks span a range of values.
