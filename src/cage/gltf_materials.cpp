@@ -57,10 +57,8 @@ std::set<std::uint32_t> MaterialReader::shownMeshes() const {
         nodes.pop_back();
         if (!seen.insert(index).second) continue;
         const GltfElement node = document_.entry("nodes", "node", index, "nodes");
-        if (const std::optional<std::uint32_t> mesh = node.integer("mesh")) {
-            document_.entry("meshes", "mesh", *mesh, node.place()); // throws where there is none
-            meshes.insert(*mesh);
-        }
+        const std::optional<std::uint32_t> mesh = node.integer("mesh");
+        if (mesh && *mesh < root_.count("meshes")) meshes.insert(*mesh);
         for (const std::uint32_t child : node.integers("children")) nodes.push_back(child);
     }
     return meshes;
