@@ -169,11 +169,10 @@ Run addNormalMap(CLI::App& app) {
     listIn("output", "8|16",
            app.add_option("--bits", args->bits, "bits per channel of .png and .tif (default: 16)")
                ->check(CLI::IsMember({8, 16})));
-    app.footer(
-        "Slopes are central differences over one texel, those that --height displaces and bumps with. --mid moves "
-        "all heights alike and changes no normal.\n"
-        "example:\n"
-        "  relief normal-map bricks.exr -o bricks_normal.png --scale 0.02 --size 2,1");
+    app.footer("Slopes are central differences over one texel, those that --height displaces and bumps with.\n"
+               "--mid moves all heights alike and changes no normal.\n"
+               "example:\n"
+               "  relief normal-map bricks.exr -o bricks_normal.png --scale 0.02 --size 2,1");
     return [args] { return makeNormalMapFile(*args); };
 }
 
@@ -189,8 +188,8 @@ Run addHeightMap(CLI::App& app) {
     listIn("map", "SPACE",
            addEnum(app, "--normal-space", args->space, kNormalSpaces, "what normals are components along"));
     app.footer(
-        "The heights whose slopes come nearest to those of the normals (a Poisson equation). What of the slopes no "
-        "height has, because they were painted or rounded, is printed as a percentage of their root mean square.\n"
+        "The heights whose slopes come nearest to those of the normals (a Poisson equation). What of the slopes no\n"
+        "height has, because they were painted or rounded, is printed as a share of their root mean square.\n"
         "example:\n"
         "  relief height-map bricks_normal.png -o bricks.exr --size 2,1 --normal-y down");
     return [args] { return makeHeightMapFile(*args); };

@@ -178,12 +178,18 @@ TEST_F(MapVerbs, ofEightAndSixteenBitsAgree) {
 
 TEST_F(MapVerbs, refuseSizesBeforeTheyTakeMemory) {
     using namespace std::string_literals;
-    // A header of 30000 x 30000 texels of 3 channels of 16 bits, and nothing behind it.
+    // The header of a PNG says 30000 x 30000 texels of 3 channels of 16 bits, with the checksum of that.
     std::string bytes = readFile(normals("n.png"));
     bytes.replace(16, 8, "\0\0\x75\x30\0\0\x75\x30"s);
+    std::uint32_t crc = ~0u;
+    for (const char letter : bytes.substr(12, 17)) {
+        crc ^= static_cast<unsigned char>(letter);
+        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc & 1 ? 0xedb88320u : 0u);
+    }
+    for (int i = 0; i < 4; ++i) bytes[std::size_t(29 + i)] = char(~crc >> (24 - 8 * i));
     putFile(folder / "huge.png", bytes);
     const Outcome outcome = shell("ulimit -v 1500000; exec \"$RELIEF\" height-map $IN/huge.png -o $IN/out.exr", folder);
-    expectRefused(outcome, Failure::input, {"huge.png"});
+    expectRefused(outcome, Failure::input, {"huge.png", "decodes to 5.4 GB"});
     expectNothingWritten();
 }
 

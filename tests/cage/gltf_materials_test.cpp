@@ -30,7 +30,7 @@ struct GltfMaterials : testing::Test {
         return readGltfMaterials(path, warnings.warn());
     }
     /// The material without its normal map, and one warning that holds the words.
-    void expectNoNormalMap(const Words& words) {
+    void expectNoNormalMap(const std::vector<std::string>& words) {
         const std::vector<GltfMaterial> materials = read();
         ASSERT_EQ(materials.size(), 1u);
         EXPECT_FALSE(materials[0].normal);
@@ -39,7 +39,6 @@ struct GltfMaterials : testing::Test {
         for (const std::string& word : words)
             EXPECT_NE(warnings.lines[0].find(word), std::string::npos) << word << " in " << warnings.lines[0];
     }
-    using Words = std::vector<std::string>;
 };
 
 TEST_F(GltfMaterials, haveTexturesInBuffersAndInTheText) {
