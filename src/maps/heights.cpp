@@ -19,8 +19,19 @@ struct Field {
     }
 };
 
-/// The slopes of a normal along x and y.
-dvec2 slopeOf(const vec3& n) { return {-double(n.x) / n.z, -double(n.y) / n.z}; }
+/// The slopes of normals along x and y (y runs up, rows run down).
+struct Slopes {
+    const NormalMap& map;
+    bool halvesBorder = false; ///< across a clamped border, where a difference sees half of a slope
+
+    [[nodiscard]] dvec2 at(int i, int j) const {
+        const vec3& n = map.normals[std::size_t(j) * std::size_t(map.width) + std::size_t(i)];
+        const dvec2 slope(-double(n.x) / n.z, -double(n.y) / n.z);
+        if (!halvesBorder) return slope;
+        const auto isBorder = [](int k, int size) { return k == 0 || k == size - 1; };
+        return slope * dvec2(isBorder(i, map.width) ? 0.5 : 1, isBorder(j, map.height) ? 0.5 : 1);
+    }
+};
 
 void checkNormals(const NormalMap& map, const std::string& name) {
     if (map.space != NormalSpace::tangent)
@@ -43,13 +54,14 @@ struct SlopeMeans {
     double squareOfSteps = 0; ///< of the difference of a slope from that of the texel before it along its own axis
 };
 
-SlopeMeans computeMeans(const NormalMap& map) {
+SlopeMeans computeMeans(const Slopes& slopes) {
+    const NormalMap& map = slopes.map;
     SlopeMeans sums;
     for (int j = 0; j < map.height; ++j)
         for (int i = 0; i < map.width; ++i) {
-            const dvec2 slope = slopeOf(normalAt(map, i, j));
-            const double left = slopeOf(normalAt(map, beside(i, -1, map.width, map.wrap), j)).x;
-            const double above = slopeOf(normalAt(map, i, beside(j, -1, map.height, map.wrap))).y;
+            const dvec2 slope = slopes.at(i, j);
+            const double left = slopes.at(beside(i, -1, map.width, map.wrap), j).x;
+            const double above = slopes.at(i, beside(j, -1, map.height, map.wrap)).y;
             sums.slope += slope;
             sums.square += glm::dot(slope, slope);
             sums.squareOfSteps += 0.5 * (std::pow(slope.x - left, 2) + std::pow(slope.y - above, 2));
@@ -59,11 +71,12 @@ SlopeMeans computeMeans(const NormalMap& map) {
 }
 
 /// The right side of the normal equations: the transposed differences of the slopes.
-Field transposeDifferences(const NormalMap& map, const dvec2& texel) {
+Field transposeDifferences(const Slopes& slopes, const dvec2& texel) {
+    const NormalMap& map = slopes.map;
     Field field{map.width, map.height, std::vector<double>(map.normals.size(), 0)};
     for (int j = 0; j < map.height; ++j)
         for (int i = 0; i < map.width; ++i) {
-            const dvec2 half = 0.5 * slopeOf(normalAt(map, i, j)) / texel;
+            const dvec2 half = 0.5 * slopes.at(i, j) / texel;
             const std::span<double> row = field.row(j);
             row[std::size_t(beside(i, 1, map.width, map.wrap))] += half.x;
             row[std::size_t(beside(i, -1, map.width, map.wrap))] -= half.x;
@@ -131,22 +144,43 @@ double computeSmoothness(double rounding, double squareOfSteps) {
     return signal > noise ? noise / signal : noise > 0 ? 1 : 0;
 }
 
-/// Root of the mean square of the difference between slopes of normals and of heights.
-double computeResidual(const NormalMap& map, const Field& heights, const dvec2& texel) {
-    const auto at = [&](int i, int j) {
-        return heights.values[std::size_t(j) * std::size_t(map.width) + std::size_t(i)];
-    };
-    double sum = 0;
+/// Means over the texels of heights.
+struct Fit {
+    Field heights;
+    double residualSquare = 0;  ///< of what their slopes differ from those asked for
+    double roughnessSquare = 0; ///< of their second differences
+};
+
+Fit computeFit(const Slopes& slopes, const dvec2& texel, double smoothness) {
+    const NormalMap& map = slopes.map;
+    Fit fit{.heights = transposeDifferences(slopes, texel)};
+    solve(fit.heights, map.wrap, texel, smoothness);
+    const auto at = [&](int i, int j) { return fit.heights.row(j)[std::size_t(i)]; };
     for (int j = 0; j < map.height; ++j) {
         const int above = beside(j, -1, map.height, map.wrap), below = beside(j, 1, map.height, map.wrap);
         for (int i = 0; i < map.width; ++i) {
-            const double across = at(beside(i, 1, map.width, map.wrap), j) - at(beside(i, -1, map.width, map.wrap), j);
-            const dvec2 slope = 0.5 * dvec2(across, at(i, above) - at(i, below)) / texel;
-            const dvec2 residual = slopeOf(normalAt(map, i, j)) - slope;
-            sum += glm::dot(residual, residual);
+            const double left = at(beside(i, -1, map.width, map.wrap), j), middle = at(i, j);
+            const double right = at(beside(i, 1, map.width, map.wrap), j);
+            const dvec2 slope = 0.5 * dvec2(right - left, at(i, above) - at(i, below)) / texel;
+            const dvec2 bend = dvec2(right + left - 2 * middle, at(i, above) + at(i, below) - 2 * middle) / texel;
+            const dvec2 residual = slopes.at(i, j) - slope;
+            fit.residualSquare += glm::dot(residual, residual);
+            fit.roughnessSquare += glm::dot(bend, bend);
         }
     }
-    return std::sqrt(sum / double(map.normals.size()));
+    fit.residualSquare /= double(map.normals.size());
+    fit.roughnessSquare /= double(map.normals.size());
+    return fit;
+}
+
+/// Differences across a clamped border see half of the slope there. Maps of other programs have all of it: taken as it
+/// is, it is made up for by waves of two texels through the whole map. The smoother one of both readings is right.
+Fit chooseFit(const NormalMap& map, const dvec2& texel, double smoothness) {
+    Fit fit = computeFit({map}, texel, smoothness);
+    if (map.wrap == Wrap::repeat) return fit;
+    Fit halved = computeFit({map, true}, texel, smoothness);
+    constexpr double kClearly = 0.999; // equal but for rounding where borders have no slope
+    return halved.roughnessSquare < kClearly * fit.roughnessSquare ? std::move(halved) : std::move(fit);
 }
 
 } // namespace
@@ -164,13 +198,13 @@ IntegratedHeights integrateNormals(const NormalMap& map, const IntegrationOption
     RELIEF_CHECK(options.size.y > 0);
     checkNormals(map, name);
     const dvec2 texel = options.size / dvec2(map.width, map.height);
-    const SlopeMeans means = computeMeans(map);
-    IntegratedHeights result{.slopeRms = std::sqrt(means.square), .meanSlope = means.slope};
-    Field field = transposeDifferences(map, texel);
-    solve(field, map.wrap, texel, computeSmoothness(options.rounding, means.squareOfSteps));
-    result.residualRms = computeResidual(map, field, texel);
-    result.heights = makeHeightMap(map.width, map.height, std::vector<float>(field.values.begin(), field.values.end()),
-                                   0, 1, map.wrap);
+    const SlopeMeans means = computeMeans({map});
+    const Fit fit = chooseFit(map, texel, computeSmoothness(options.rounding, means.squareOfSteps));
+    const std::vector<double>& heights = fit.heights.values;
+    IntegratedHeights result{
+        .slopeRms = std::sqrt(means.square), .residualRms = std::sqrt(fit.residualSquare), .meanSlope = means.slope};
+    result.heights =
+        makeHeightMap(map.width, map.height, std::vector<float>(heights.begin(), heights.end()), 0, 1, map.wrap);
     return result;
 }
 

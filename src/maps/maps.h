@@ -45,7 +45,9 @@ struct IntegrationOptions {
 /// The normal equations are a Poisson equation. They are diagonal after a Hartley transform along an axis that repeats
 /// and a cosine transform along one that is clamped. Waves of two texels, of which central differences see nothing, are
 /// 0 in the result. With a `rounding`, heights with small second differences are preferred as much as the rounding
-/// hides of them (Tikhonov); without that, errors of the slopes show as a pattern of single texels.
+/// hides of them (Tikhonov); without that, errors of the slopes show as a pattern of single texels. Across a clamped
+/// border a map may hold all of a slope, or the half that a clamped difference sees: that which makes smoother heights
+/// is taken.
 /// Throws Failure::input for normals with z <= 0 and for object space; `name` stands for the map in messages.
 IntegratedHeights integrateNormals(const NormalMap& map, const IntegrationOptions& options, const std::string& name);
 

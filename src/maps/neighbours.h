@@ -13,8 +13,4 @@ inline int beside(int index, int step, int size, Wrap wrap) {
     return wrap == Wrap::clamp ? std::clamp(at, 0, size - 1) : (at + size) % size;
 }
 
-inline const vec3& normalAt(const NormalMap& map, int i, int j) {
-    return map.normals[std::size_t(j) * std::size_t(map.width) + std::size_t(i)];
-}
-
 } // namespace relief

@@ -94,6 +94,20 @@ TEST(HeightsOfNormals, ofASlopeAreAPlaneWhereTheMapEnds) {
     EXPECT_GT(back.heights.texels[23 * 24], back.heights.texels[0]) << "downwards, against t";
 }
 
+// Other programs do not halve slopes at the border.
+TEST(HeightsOfNormals, areSmoothWhereTheBorderHasAllOfItsSlope) {
+    const int size = 32;
+    const auto height = [](double x, double y) { return 0.3 * x - 0.2 * y + 0.05 * std::sin(3 * x + 2 * y); };
+    const NormalMap map = normalsOf(size, size, Wrap::clamp, [&](int i, int j) {
+        const double x = (i + 0.5) / size, y = 1 - (j + 0.5) / size;
+        return dvec2(0.3 + 0.15 * std::cos(3 * x + 2 * y), -0.2 + 0.1 * std::cos(3 * x + 2 * y));
+    });
+    const HeightMap exact = heightsOf(size, size, Wrap::clamp, height);
+    const IntegratedHeights back = integrate(map);
+    EXPECT_LT(largestDifference(exact, back.heights), 1e-3);
+    EXPECT_LT(back.residualShare(), 2e-3);
+}
+
 TEST(HeightsOfNormals, cannotRepeatAMeanSlope) {
     const NormalMap plane = normalsOf(16, 16, Wrap::repeat, [](int, int) { return dvec2(0.5, -0.25); });
     const IntegratedHeights back = integrate(plane);
