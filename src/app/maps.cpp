@@ -144,11 +144,15 @@ int makeHeightMapFile(const HeightMapArgs& args) {
         fail(Failure::usage, "{}: heights are made of normals in tangent space; those of an object have no one height",
              args.source);
     checkOutput(args.target, {args.source});
-    const Warn warn = makeWarn(args.isQuiet);
-    const NormalMap normals = loadNormalMap(args.source, {.y = args.y, .wrap = args.wrap, .limits = {}}, warn);
+    // What is said of the map is said once it has heights: an error is one line.
+    std::vector<std::string> warnings;
+    const Warn collect = [&](const std::string& line) { warnings.push_back(line); };
+    const NormalMap normals = loadNormalMap(args.source, {.y = args.y, .wrap = args.wrap, .limits = {}}, collect);
     const MapSize size = args.size.value_or(defaultMapSize(normals.width, normals.height));
     const IntegrationOptions options{.size = size, .rounding = slopeRounding(readImageInfo(args.source))};
     const IntegratedHeights result = integrateNormals(normals, options, args.source);
+    const Warn warn = makeWarn(args.isQuiet);
+    for (const std::string& line : warnings) warn(line);
     warnOfMeanSlope(args, result, warn);
     const StoredHeights stored = toStored(result.heights, sample);
     writeImage(args.target, stored.image, sample);

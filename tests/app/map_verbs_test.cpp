@@ -75,13 +75,13 @@ TEST_F(MapVerbs, writeEveryKindOfNormalMap) {
 TEST_F(MapVerbs, sayWhatTheyWrote) {
     const Outcome outcome = relief({"normal-map", heights, "-o", folder / "n.png"});
     EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_TRUE(contains(outcome.err, "n.png: 32 x 16 normals, up to 1")) << outcome.err;
+    EXPECT_TRUE(contains(outcome.err, "n.png: 32 x 16 normals, up to 30.9 degrees steep")) << outcome.err;
     EXPECT_TRUE(contains(outcome.err, "the unit square is 1 by 0.5")) << outcome.err;
     const nlohmann::json json = jsonOf(relief({"normal-map", heights, "-o", folder / "n.png", "--json"}, "--scale 2"));
     EXPECT_EQ(json.at("output"), folder / "n.png");
     EXPECT_EQ(json.at("size"), (nlohmann::json{1, 0.5}));
     EXPECT_EQ(json.at("wrap"), "repeat");
-    EXPECT_NEAR(json.at("steepest_degrees"), 32, 1); // atan(2 * 0.05 * 2 pi)
+    EXPECT_NEAR(json.at("steepest_degrees"), 50, 0.5); // near atan(2 * 0.05 * 2 pi / 0.5) = 51.5
 
     const Outcome back = toHeights(normals("n.exr"));
     EXPECT_EQ(back.exitCode, 0);
