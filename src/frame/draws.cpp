@@ -49,12 +49,12 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
     drawn.diced = dicer.dice(*drawn.surface, drawn.rates,
                              {.normal = frame.options.normal,
                               .wantsTexCoords = wants.wantsTexCoords,
-                              .wantsTangents = wants.hasTangents,
+                              .wantsTexGradients = wants.hasTexGradients,
                               .memory = frame.options.memory});
     const DicedMesh& mesh = drawn.diced;
     drawn.bindings[kBindMesh] = mesh.vertices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
-    drawn.bindings[kBindMeshTangents] = mesh.tangents.binding();
+    drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
     stats.triangleCount += mesh.triangleCount;
     stats.vertexCount += mesh.sampleCount;
     stats.faceCount += drawn.surface->faces.size();

@@ -22,7 +22,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();
     if (row.bendsNormals) {
-        c.hasTangents = pictures.needTangents();
+        c.hasTexGradients = pictures.needTexGradients();
         c.hasSlopes = pictures.slopes.has_value();
         c.normalMap = normalMapConstant(pictures);
     }

@@ -53,7 +53,7 @@ struct ModelPictures {
     std::optional<GpuNormalMap> normalMap;
 
     /// Whether normals are bent or turned in directions along the surface, which vertices have to carry.
-    [[nodiscard]] bool needTangents() const {
+    [[nodiscard]] bool needTexGradients() const {
         return slopes || (normalMap && normalMap->space == NormalSpace::tangent);
     }
     [[nodiscard]] bool needTexCoords() const { return slopes || normalMap; }
@@ -138,18 +138,18 @@ struct MeshModelDesc {
 struct MeshModel {
     MeshModel(Device& device, const MeshModelDesc& desc);
 
-    TexelBuffer vertices;  ///< two texels per vertex: position with height, normal
-    TexelBuffer texCoords; ///< per vertex, or empty
-    TexelBuffer tangents;  ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
-    Buffer indices;        ///< three 32-bit indices per triangle
+    TexelBuffer vertices;     ///< two texels per vertex: position with height, normal
+    TexelBuffer texCoords;    ///< per vertex, or empty
+    TexelBuffer texGradients; ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
+    Buffer indices;           ///< three 32-bit indices per triangle
     ModelPictures pictures;
     std::uint32_t vertexCount = 0, triangleCount = 0;
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
 };
 
-/// What MeshModel::tangents holds: p_s and p_t in turn, no slopes.
-std::vector<vec4> toTexels(const Tangents& tangents);
+/// What MeshModel::texGradients holds: the gradients of s and of t along the mesh in turn, and no slopes.
+std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents);
 
 // --- either -------------------------------------------------------------------------------------------------------
 

@@ -46,7 +46,7 @@ MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, co
                            .memory = MemoryUse::upload},
                           VK_FORMAT_R32_SFLOAT);
     p.staging = makeBuffer(device, {.name = "posed mesh",
-                                    .bytes = vertices.size() * sizeof(vec4) + model.tangents.buffer.bytes,
+                                    .bytes = vertices.size() * sizeof(vec4) + model.texGradients.buffer.bytes,
                                     .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                     .memory = MemoryUse::upload});
     p.pipeline = makePosePipeline(device, "pose_mesh.comp");
@@ -85,7 +85,7 @@ std::uint64_t MeshPoser::upload(const DenseMesh& posed, const Tangents* tangents
     std::vector<vec4> texels = verticesOf(posed.positions, posed.normals);
     const std::uint64_t vertexBytes = texels.size() * sizeof(vec4);
     if (tangents != nullptr) {
-        const std::vector<vec4> more = toTexels(*tangents);
+        const std::vector<vec4> more = toTexGradients(posed, *tangents);
         texels.insert(texels.end(), more.begin(), more.end());
     }
     const std::uint64_t bytes = texels.size() * sizeof(vec4);
@@ -97,7 +97,7 @@ std::uint64_t MeshPoser::upload(const DenseMesh& posed, const Tangents* tangents
             if (count > 0) vkCmdCopyBuffer(commands, p.staging.handle.get(), to.buffer.handle.get(), 1, &region);
         };
         copy(0, vertexBytes, p.model.vertices);
-        copy(vertexBytes, bytes - vertexBytes, p.model.tangents);
+        copy(vertexBytes, bytes - vertexBytes, p.model.texGradients);
         barrier(commands);
     });
     return bytes;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kTileSamples = 1024; ///< of the insides of faces: enough for one load of control points
 constexpr std::uint64_t kVertexBytes = 32;   ///< position and height, normal
-constexpr std::uint64_t kTangentBytes = 32;
+constexpr std::uint64_t kTexGradientBytes = 32;
 
 std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
 
@@ -190,8 +190,8 @@ Dicer::~Dicer() = default;
 namespace {
 
 std::uint64_t byteCountOf(const Work& work, const DiceOptions& options) {
-    const std::uint64_t vertexBytes =
-        kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) + (options.wantsTangents ? kTangentBytes : 0);
+    const std::uint64_t vertexBytes = kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) +
+                                      (options.wantsTexGradients ? kTexGradientBytes : 0);
     return work.vertexCount * vertexBytes + work.triangleCount * 12;
 }
 
@@ -207,11 +207,11 @@ DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& opti
                                  .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
                                  .usage = usage},
                                 VK_FORMAT_R32G32_SFLOAT);
-    mesh.tangents = makeTexels(device,
-                               {.name = "diced tangents",
-                                .bytes = options.wantsTangents ? work.vertexCount * kTangentBytes : 0,
-                                .usage = usage},
-                               VK_FORMAT_R32G32B32A32_SFLOAT);
+    mesh.texGradients = makeTexels(device,
+                                   {.name = "diced texture gradients",
+                                    .bytes = options.wantsTexGradients ? work.vertexCount * kTexGradientBytes : 0,
+                                    .usage = usage},
+                                   VK_FORMAT_R32G32B32A32_SFLOAT);
     mesh.indices = makeBuffer(
         device,
         {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
@@ -279,12 +279,12 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     // What they write.
     inputs.targets.dicedVertices = mesh.vertices.buffer.address;
     inputs.targets.dicedTexCoords = mesh.texCoords.buffer.address;
-    inputs.targets.dicedTangents = mesh.tangents.buffer.address;
+    inputs.targets.dicedTexGradients = mesh.texGradients.buffer.address;
     inputs.targets.dicedIndices = mesh.indices.address;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
-    constants.hasTangents = options.wantsTangents;
+    constants.hasTexGradients = options.wantsTexGradients;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
     Passes passes = passesOf(work, table, firstRing, firstCell);
