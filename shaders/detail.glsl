@@ -15,11 +15,15 @@ layout(set = 0, binding = kBindNormalMap) uniform sampler2D normalMap;
 // Where (s,t) lies in a picture, whose rows go down.
 vec2 pictureCoordinates() { return vec2(vTexCoord.x, 1.0 - vTexCoord.y); }
 
-// What the vertices' normals lack of the slopes (h_s, h_t) of the map, at the mip that fits the pixel: all of them on a surface
+// Of mips, relative to the pixel: displaced triangles show what each of four samples per pixel meets, and these are half a
+// pixel apart.
+const float kSampleLevel = -1.0;
+
+// What the vertices' normals lack of the slopes (h_s, h_t) of the map, at the mip that fits the samples: all of them on a surface
 // that is not displaced; on a displaced one what its triangles are too large for. Central differences over one texel commute
 // with interpolation between texels, so they are taken once per texel, and the sampler does the rest.
 vec2 missingSlopes() {
-    vec2 slopes = inputs.model.slopeUnit * texture(slopeMap, pictureCoordinates()).rg;
+    vec2 slopes = inputs.model.slopeUnit * texture(slopeMap, pictureCoordinates(), kSampleLevel).rg;
     return kHasHeight ? slopes - vec2(vGradientS.w, vGradientT.w) : slopes;
 }
 
