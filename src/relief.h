@@ -10,6 +10,7 @@
 #include "distance/distance.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"
+#include "maps/maps.h"
 #include "measure/measure.h"
 #include "mesh/mesh.h"
 #include "model/model.h"

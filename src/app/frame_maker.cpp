@@ -49,7 +49,7 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
         if (wantsMotion(args.picture))
             fail(Failure::usage, "{}: the layer of motion is not known for plain polygons; name their --scheme",
                  desc.cage);
-        polygons_.emplace(object.cage, *object.animation, needsTangents(desc));
+        polygons_.emplace(object.cage, *object.animation, object.needsTangents);
     }
     frames_ = listFrames(args, object.animation.get());
     placeScene();
@@ -125,7 +125,7 @@ void FrameMaker::posePolygons(int frame, DrawnFrame& drawn) {
     const double start = secondsNow();
     const DenseMesh mesh = polygons_->makeMesh(toSeconds(frame, args_.scene.object.motion));
     std::optional<Tangents> tangents;
-    if (needsTangents(args_.scene.object)) tangents = computeTangents(mesh);
+    if (loaded_.object.needsTangents) tangents = computeTangents(mesh);
     drawn.uploadedBytes = meshPoser_->upload(mesh, tangents ? &*tangents : nullptr);
     drawn.poseMs = 1e3 * (secondsNow() - start);
     polygonBounds_ = {};
@@ -142,7 +142,8 @@ DrawnFrame FrameMaker::draw(int frame) {
         drawn.poseMs = poser_->stats().milliseconds;
     }
     if (meshPoser_) posePolygons(frame, drawn);
-    drawn.picture = renderer_->render(Instance(*model_, makeMaterial(args_.scene.object.material)), optionsAt(frame));
+    const Material material = makeMaterial(args_.scene.object.material, loaded_.object.textureColor);
+    drawn.picture = renderer_->render(Instance(*model_, material), optionsAt(frame));
     return drawn;
 }
 

@@ -108,6 +108,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
                 .loadSeconds = object.loadSeconds,
                 .surfaceSeconds = object.surfaceSeconds,
                 .tableSeconds = object.surface.tableSeconds};
+    const Material material = makeMaterial(args.scene.object.material, object.textureColor);
     loaded = {};
     malloc_trim(0);
     progress.advance();
@@ -115,7 +116,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     const ivec2& size = args.scene.size;
     Renderer renderer(device, {.width = size.x, .height = size.y});
     device.startPeak();
-    drawn.picture = renderer.render(Instance(model, makeMaterial(args.scene.object.material)), options);
+    drawn.picture = renderer.render(Instance(model, material), options);
     drawn.peakDeviceBytes = device.peakBytes();
     drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size, coordinates});
     progress.advance();

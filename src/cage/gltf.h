@@ -1,6 +1,6 @@
-// What relief takes from a glTF 2.0 file: triangles, skins, morph targets, the tree of nodes and its animations, as
-// plain arrays that have been checked: indices exist, counts agree, numbers are finite, the tree has no cycle. Numbers
-// of sections are the specification's.
+// What relief takes from a glTF 2.0 file: triangles, skins, morph targets, the tree of nodes, its animations and the
+// textures of its materials, as plain arrays that have been checked: indices exist, counts agree, numbers are finite,
+// the tree has no cycle. Numbers of sections are the specification's.
 #pragma once
 
 #include <optional>
@@ -80,6 +80,29 @@ struct GltfScene {
     std::vector<GltfSkin> skins;
     std::optional<GltfClip> clip; ///< the one that was asked for
 };
+
+/// A picture that a material names, as it is stored.
+struct GltfTexture {
+    std::string name;       ///< for messages: the file and its element, "FILE: images/0"
+    std::string bytes;      ///< of a PNG or JPEG file; row 0 is at t = 1 of GltfPrimitive::texCoords
+    bool isClamped = false; ///< beyond 0..1 along s and t; else it repeats
+    double scale = 1;       ///< of a normal map: factor of x and y
+};
+
+/// The looks of primitives as far as relief draws them. Normal maps are of tangent space, with y up.
+struct GltfMaterial {
+    std::string name;
+    dvec3 baseColorFactor{1}; ///< linear; multiplies the texture
+    std::optional<GltfTexture> baseColor, normal;
+};
+
+/// Reads the materials of the triangles that the file's scene shows, each once, in the order of the file; those of
+/// primitives without one are not in the list. They change no shape, so that nothing in them is a fault of the file:
+/// `warn` gets what is wrong with a texture, and the material is without it. Textures by other coordinates than
+/// TEXCOORD_0, transformed ones and those that are neither PNG nor JPEG are not read. Neither is the attribute TANGENT:
+/// tangents are those of the surface that is drawn.
+/// Throws as readGltf does for the file itself and for its nodes.
+std::vector<GltfMaterial> readGltfMaterials(const std::string& path, const Warn& warn);
 
 /// Reads a .gltf with the buffers beside it, or a .glb: by its first bytes, whatever its name. Of the animations it
 /// reads `clip`, a name or a number ("": the first, if there is one), or none. What the file's scene does not need is

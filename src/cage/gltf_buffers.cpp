@@ -62,11 +62,11 @@ std::string_view takeGlbApart(GltfDocument& document) {
 
 bool isDataUri(const std::string& uri) { return uri.starts_with("data:"); }
 
-std::string bytesOfDataUri(const std::string& uri, const GltfElement& buffer) {
+std::string bytesOfDataUri(const std::string& uri, const GltfElement& from) {
     constexpr std::string_view kBase64 = ";base64,";
     const std::size_t end = uri.find(kBase64);
     if (end == std::string::npos || end > uri.find(','))
-        buffer.fail("its data: URI is no base64; write data:application/octet-stream;base64,...");
+        from.fail("its data: URI is no base64; write data:application/octet-stream;base64,...");
     return tinygltf::base64_decode(uri.substr(end + kBase64.size()));
 }
 
@@ -86,12 +86,12 @@ std::string withoutPercents(const std::string& uri) {
     return text;
 }
 
-/// The buffer's place, which is below the folder of the glTF file.
-std::string filePlace(const std::string& uri, const GltfElement& buffer) {
-    const fs::path folder = fs::path(buffer.path()).parent_path();
+/// Where a buffer or a picture lies, which is below the folder of the glTF file.
+std::string filePlace(const std::string& uri, const GltfElement& from) {
+    const fs::path folder = fs::path(from.path()).parent_path();
     const fs::path place = fs::path(withoutPercents(uri)).lexically_normal();
     if (place.empty() || place.is_absolute() || *place.begin() == ".." || place == "." || !place.has_filename())
-        buffer.fail("{} does not lie in the file's own folder", printable(uri));
+        from.fail("{} does not lie in the file's own folder", printable(uri));
     return (folder / place).string();
 }
 
@@ -119,6 +119,13 @@ std::string readBuffer(const GltfElement& buffer, std::uint64_t length) {
 }
 
 } // namespace
+
+std::string readGltfPicture(const GltfElement& image) {
+    const std::string uri = image.need("uri").text("uri");
+    if (isDataUri(uri)) return bytesOfDataUri(uri, image);
+    const std::string path = filePlace(uri, image);
+    return firstBytes(path, InputFile(path).size(), image);
+}
 
 GltfElement GltfDocument::entry(const char* list, const char* what, std::uint32_t index,
                                 const std::string& place) const {

@@ -187,6 +187,13 @@ std::string GltfElement::text(std::string_view name) const {
     return value->get<std::string>();
 }
 
+std::optional<double> GltfElement::number(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_number()) failKind(name, "a number");
+    return value->get<double>();
+}
+
 std::vector<double> GltfElement::numbers(std::string_view name) const {
     const Json* value = member(name);
     if (value == nullptr) return {};

@@ -54,6 +54,9 @@ private:
     std::map<std::uint32_t, std::string> decompressed_; ///< views of EXT_meshopt_compression
 };
 
+/// The bytes of a picture that lies in a file below the folder of the glTF file, or in the "uri" itself.
+std::string readGltfPicture(const GltfElement& image);
+
 /// The `byteCount` bytes of a view that its extension EXT_meshopt_compression holds compressed in `from`.
 std::string decodeMeshopt(const GltfElement& extension, std::uint64_t byteCount, std::span<const unsigned char> from);
 

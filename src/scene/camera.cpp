@@ -71,9 +71,10 @@ std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene&
     return uploadEnvironment(device, *loaded.environment);
 }
 
-Material makeMaterial(const MaterialDesc& desc) {
+Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor) {
     Material material;
     if (!desc.albedo.empty()) material.albedo = vec3(1);
+    if (textureColor) material.albedo = *textureColor;
     if (desc.color) material.albedo = *desc.color;
     material.roughness = desc.roughness;
     return material;

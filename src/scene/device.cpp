@@ -17,8 +17,7 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
 Model makeModel(Device& device, const LoadedObject& object) {
     if (!object.dense) return makeSurfaceModel(device, object);
     std::optional<Tangents> tangents;
-    if (object.bumpMap() != nullptr || (object.normalMap && object.normalMap->space == NormalSpace::tangent))
-        tangents = computeTangents(*object.dense);
+    if (object.needsTangents) tangents = computeTangents(*object.dense);
     MeshModelDesc desc{.mesh = &*object.dense,
                        .bump = object.bumpMap(),
                        .normalMap = object.normalMap ? &*object.normalMap : nullptr,

@@ -49,14 +49,13 @@ void checkMeshMaps(const LoadedObject& object, const ObjectDesc& desc) {
     if (!map.empty()) fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
 }
 
-} // namespace
-
-bool needsTangents(const ObjectDesc& object) {
-    const bool isBumped =
-        !object.height.path.empty() && (object.height.detail == Detail::bump || object.height.detail == Detail::both);
-    const NormalMapDesc& normalMap = object.material.normalMap;
-    return isBumped || (!normalMap.path.empty() && normalMap.space == NormalSpace::tangent);
+void splitForTangents(LoadedObject& object) {
+    const bool isTurned = object.normalMap && object.normalMap->space == NormalSpace::tangent;
+    object.needsTangents = isTurned || object.bumpMap() != nullptr;
+    if (object.dense && object.needsTangents) object.dense = splitMirrored(std::move(*object.dense));
 }
+
+} // namespace
 
 std::vector<std::string> listFiles(const ObjectDesc& object) {
     return {object.cage,
@@ -105,8 +104,6 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     // What is drawn: the polygons or a surface of them.
     if (isDense) {
         object.dense = denseMesh(object.cage);
-        if (needsTangents(desc) && !object.dense->texCoords.empty())
-            object.dense = splitMirrored(std::move(*object.dense));
     } else {
         object.options = {.scheme = toScheme(subdivision), .isolation = desc.isolation};
         object.surface = buildNamedSurface(object, desc.cage);
@@ -131,7 +128,9 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
         if (object.height.path.empty() && object.material.albedo.empty())
             warnOutsideMap(object, scene.object.cage, normals, warn);
     }
+    takeGltfTextures(scene.object, object, warn);
     checkMeshMaps(scene.object, object);
+    splitForTangents(scene.object);
     if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
     return scene;
 }

@@ -16,6 +16,10 @@ Image loadAlbedo(const std::string& path, const Warn& warn);
 /// Throws Failure::usage for one of object space on a cage that moves, and as loadNormalMap does.
 NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn);
 
+/// Takes the base color and the normal map that the material of a glTF file names, where the command line names none.
+/// An object has one of each: materials that do not share theirs are warned of, and so is a picture that cannot be read.
+void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const Warn& warn);
+
 /// Warns where the cage's texture coordinates leave the unit square and nothing says how `map` continues there.
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn);
 

@@ -83,9 +83,6 @@ struct SceneDesc {
     LightingDesc lighting;
 };
 
-/// Whether normals are bent or turned along texture coordinates, by heights or by a normal map.
-bool needsTangents(const ObjectDesc& object);
-
 /// All files that are named: outputs must not replace them. Names are empty where nothing is asked for.
 std::vector<std::string> listFiles(const ObjectDesc& object);
 std::vector<std::string> listFiles(const SceneDesc& scene);
@@ -104,7 +101,9 @@ struct LoadedObject {
     Detail detail = Detail::displacement;
     MapEncoding heightEncoding; ///< how the device stores it
     std::optional<Image> albedo;
+    std::optional<vec3> textureColor; ///< linear, multiplies an albedo that the cage's own file names
     std::optional<NormalMap> normalMap;
+    bool needsTangents = false; ///< normals are bent or turned along texture coordinates, by heights or a normal map
     double loadSeconds = 0, surfaceSeconds = 0; ///< what reading files and building the surface took
 
     /// The heights that move the surface, or null.
@@ -201,7 +200,8 @@ Camera placeCamera(const CameraOptions& options, const Bounds& bounds);
 Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment);
 /// The environment of a scene on the device; nothing where it has none of its own.
 std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded);
-Material makeMaterial(const MaterialDesc& desc);
+/// `textureColor`: LoadedObject's.
+Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor = {});
 
 // --- files --------------------------------------------------------------------------------------------------------
 
