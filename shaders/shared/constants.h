@@ -29,7 +29,10 @@ RELIEF_CONSTANT uint kIdIsMesh = 16u;       // layers: the model is a triangle m
 RELIEF_CONSTANT uint kIdIsPlaced = 17u;     // the model is turned or scaled in the world
 RELIEF_CONSTANT uint kIdHasInstances = 18u; // samples carry the number of their instance
 RELIEF_CONSTANT uint kIdEntries = 19u;      // posing: entries per stencil block, or 0
-RELIEF_CONSTANT uint kIdCount = 20u;
+RELIEF_CONSTANT uint kIdHeightFunction =
+    20u;                                 // number of the height function that shaders contain: for keys of pipelines
+RELIEF_CONSTANT uint kIdReadsRest = 21u; // heights depend on the rest pose, which is another than that of the frame
+RELIEF_CONSTANT uint kIdCount = 22u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

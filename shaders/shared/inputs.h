@@ -29,6 +29,9 @@ struct ModelTables {
     uint pointsRest;
 
     float heightBound; // largest |h|, cage units; 0 without heights
+    float heightTime;  // height functions: seconds,
+    float heightUnit;  // cage units per unit of positions,
+    float heightStep;  // and how far apart they are evaluated for slopes, in positions
     MapRecord maps[kMostMaps];
 };
 
@@ -104,7 +107,7 @@ struct PassInputs {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ModelTables) == 13 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
+static_assert(sizeof(ModelTables) == 16 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
 static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 12);
 static_assert(sizeof(Material) == 20 && sizeof(Targets) == 10 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));

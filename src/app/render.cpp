@@ -80,11 +80,16 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
         std::async([&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
     LoadedScene loaded = load(args.scene, CageState::posed, warn);
     progress.advance();
+    std::unique_ptr<Device> opened;
+    if (loaded.object.function) { // what it displaces by is known to the device alone
+        opened = opening.get();
+        measureFunction(*opened, loaded.object, args.scene.object.height, {{loaded.object.time}}, warn);
+    }
     const std::vector<dvec3> points = computeOutline(loaded.object);
     progress.advance();
 
     // What the picture shows, and the model of it.
-    const std::unique_ptr<Device> opened = opening.get();
+    if (!opened) opened = opening.get();
     Device& device = *opened;
     const Coordinates coordinates = loaded.object.coordinates();
     RenderOptions options = toRenderOptions(args.picture, args.scene, loaded.object, device);
@@ -95,7 +100,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     for (const dvec3& p : points) options.bounds.add(p);
     Model model = makeModel(device, loaded.object);
     SurfaceModel* surface = std::get_if<SurfaceModel>(&model);
-    if (surface != nullptr) stretchHeights(device, *surface, loaded.object, args.scene.object.height.space);
+    if (surface != nullptr) keepRestPose(device, *surface, loaded.object, args.scene.object.height.space);
 
     // From here on the device holds everything that is drawn.
     const LoadedObject& object = loaded.object;

@@ -5,11 +5,14 @@ namespace relief {
 
 SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
     RELIEF_CHECK(!object.dense.has_value());
-    return SurfaceModel(device, {.surface = &object.surface,
-                                 .cagePositions = object.cage.positions,
-                                 .height = object.heightMap(),
-                                 .encoding = &object.heightEncoding,
-                                 .albedo = object.albedo ? &*object.albedo : nullptr});
+    SurfaceModel model(device, {.surface = &object.surface,
+                                .cagePositions = object.cage.positions,
+                                .height = object.heightMap(),
+                                .encoding = &object.heightEncoding,
+                                .function = object.function ? &*object.function : nullptr,
+                                .albedo = object.albedo ? &*object.albedo : nullptr});
+    model.setTime(object.time);
+    return model;
 }
 
 Model makeModel(Device& device, const LoadedObject& object) {
@@ -17,8 +20,9 @@ Model makeModel(Device& device, const LoadedObject& object) {
     return MeshModel(device, {.mesh = &*object.dense, .albedo = object.albedo ? &*object.albedo : nullptr});
 }
 
-void stretchHeights(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {
-    if (space == HeightSpace::absolute || object.restPositions.empty() || !object.height) return;
+void keepRestPose(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {
+    const bool stretches = space == HeightSpace::stretch && model.height.has_value();
+    if (object.restPositions.empty() || !(stretches || object.function)) return;
     Poser poser(device, model,
                 {.surface = &object.surface, .heightSpace = space, .restPositions = object.restPositions});
     poser.pose({.positions = object.cage.positions, .joints = {}, .morphWeights = {}});

@@ -27,7 +27,7 @@ Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
 
 /// What cannot work together, whatever the files hold.
 void checkUse(const ObjectDesc& desc, bool isDense) {
-    if (isDense && !desc.height.path.empty())
+    if (isDense && !(desc.height.path.empty() && desc.height.function.empty()))
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
              "catmark, loop or bilinear",
@@ -35,16 +35,22 @@ void checkUse(const ObjectDesc& desc, bool isDense) {
 }
 
 void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) {
-    if (desc.motion.time && !object.animation)
+    if (desc.motion.time && !object.animation && !object.function)
         fail(Failure::usage, "{}: --time asks for a pose; say what moves the cage: --cache, --skin or --deform",
              desc.cage);
+    object.time = desc.motion.time.value_or(0);
     if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
 }
 
 } // namespace
 
 std::vector<std::string> listFiles(const ObjectDesc& object) {
-    return {object.cage, object.height.path, object.motion.cachePath, object.motion.skinPath, object.material.albedo};
+    return {object.cage,
+            object.height.path,
+            object.height.function,
+            object.motion.cachePath,
+            object.motion.skinPath,
+            object.material.albedo};
 }
 
 std::vector<std::string> listFiles(const SceneDesc& scene) {
@@ -73,6 +79,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
         object.heightEncoding = std::move(map.encoding);
         fitUnitToHeights(object, warn);
     }
+    if (!desc.height.function.empty()) object.function = loadFunction(desc, object.cage);
     object.animation = loadAnimation(desc.motion, object.cage, warn);
 
     // Point caches and skins fit the cage as it is in its file, so that it is welded after them.
