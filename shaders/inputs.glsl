@@ -21,6 +21,7 @@ layout(constant_id = kIdReadsRest) const bool kReadsRest = false; // heights dep
 #define kReadsRest kStretches
 #endif
 layout(constant_id = kIdHasWideIndices) const bool kHasWideIndices = false;
+layout(constant_id = kIdHasTangents) const bool kHasTangents = false;
 layout(constant_id = kIdPass) const uint kPass = kPassSurface;
 
 RELIEF_TABLE(kBindRecords, uvec4, recordAt)

@@ -129,6 +129,7 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     traits.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     if (traits.isCpu) traits.smallGroup = std::max(subgroup.subgroupSize, 1u);
     traits.hasTessellation = features.tessellationShader == VK_TRUE;
+    traits.maxAnisotropy = features.samplerAnisotropy == VK_TRUE ? limits.maxSamplerAnisotropy : 1;
     traits.hasWireframe = features.fillModeNonSolid == VK_TRUE;
     traits.maxTessellationLevel = traits.hasTessellation ? limits.maxTessellationGenerationLevel : 0;
     traits.hasVertexStores = features.vertexPipelineStoresAndAtomics == VK_TRUE;

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "model/albedo.h"
+#include "model/pictures.h"
 #include "model/stages.h"
 
 namespace relief {
@@ -94,8 +94,10 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
     if (desc.albedo != nullptr)
-        albedo =
+        pictures.albedo =
             AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.height != nullptr ? desc.height->wrap : Wrap::repeat};
+    if (desc.bump != nullptr) pictures.slopes = uploadSlopes(device, *desc.bump);
+    if (desc.normalMap != nullptr) pictures.normalMap = uploadNormals(device, *desc.normalMap);
 
     uploadTables(device, surface, *this);
     copyTopology(surface, *this);
@@ -134,6 +136,27 @@ void SurfaceModel::setPoints(PointSets other) {
     normalBounds.clear();
 }
 
+namespace {
+
+/// What bends the normals of a mesh, and the tangents that it needs for that.
+void uploadDetail(Device& device, const MeshModelDesc& desc, MeshModel& model) {
+    if (desc.bump != nullptr) model.pictures.slopes = uploadSlopes(device, *desc.bump);
+    if (desc.normalMap != nullptr) model.pictures.normalMap = uploadNormals(device, *desc.normalMap);
+    std::vector<vec4> texels;
+    if (model.pictures.needTangents()) {
+        const std::size_t count = desc.mesh->positions.size();
+        RELIEF_CHECK(desc.tangentsS.size() == count);
+        RELIEF_CHECK(desc.tangentsT.size() == count);
+        for (std::size_t i = 0; i < count; ++i) {
+            texels.emplace_back(desc.tangentsS[i], 0.0f);
+            texels.emplace_back(desc.tangentsT[i], 0.0f);
+        }
+    }
+    model.tangents = uploadTexels(device, {.name = "mesh tangents"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
+}
+
+} // namespace
+
 MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     const std::uint64_t before = device.allocatedBytes();
     const DenseMesh& mesh = *desc.mesh;
@@ -148,7 +171,8 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     texCoords =
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
     indices = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    if (desc.albedo != nullptr) albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), Wrap::repeat};
+    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), Wrap::repeat};
+    uploadDetail(device, desc, *this);
     vertexCount = std::uint32_t(mesh.positions.size());
     triangleCount = std::uint32_t(mesh.indices.size() / 3);
     hasTexCoords = !mesh.texCoords.empty();

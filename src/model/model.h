@@ -43,6 +43,33 @@ struct AlbedoMap {
     Wrap wrap = Wrap::repeat;
 };
 
+/// A normal map with its mip levels.
+struct GpuNormalMap {
+    Texture texture; ///< unit normals as NormalMap holds them, and means of them
+    NormalSpace space = NormalSpace::tangent;
+    Wrap wrap = Wrap::repeat;
+};
+
+/// The slopes of a height map that bend normals per fragment.
+struct GpuSlopeMap {
+    Texture texture; ///< as SlopeMap::texels
+    float unit = 1;  ///< SlopeMap::unit
+    Wrap wrap = Wrap::repeat;
+};
+
+/// What fragments read of a model, as far as there is any of it.
+struct ModelPictures {
+    std::optional<AlbedoMap> albedo;
+    std::optional<GpuSlopeMap> slopes;
+    std::optional<GpuNormalMap> normalMap;
+
+    /// Whether normals are bent or turned in directions along the surface, which vertices have to carry.
+    [[nodiscard]] bool needTangents() const {
+        return slopes || (normalMap && normalMap->space == NormalSpace::tangent);
+    }
+    [[nodiscard]] bool needTexCoords() const { return slopes || normalMap; }
+};
+
 // --- surfaces -----------------------------------------------------------------------------------------------------
 
 /// The points that patches are made of, one pose after another in one table: four floats per point, the last one
@@ -60,6 +87,8 @@ struct SurfaceModelDesc {
     const HeightMap* height = nullptr;         ///< null: the limit surface itself
     const MapEncoding* encoding = nullptr;     ///< of the height map; null: 32-bit floats
     const FunctionHeights* function = nullptr; ///< instead of a height map
+    const HeightMap* bump = nullptr;           ///< heights whose slopes normals show, as far as `height` does not
+    const NormalMap* normalMap = nullptr;      ///< of object space only where the cage never moves
     const Image* albedo = nullptr;             ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
@@ -74,7 +103,7 @@ struct SurfaceModel {
     pass::ModelTables tables{}; ///< where records begin; describe() fills in points and maps, Dicer what dicing needs
     std::optional<GpuHeightMap> height;
     std::shared_ptr<const HeightFunction> function; ///< null: heights are those of a map
-    std::optional<AlbedoMap> albedo;
+    ModelPictures pictures;
     std::uint64_t byteCount = 0; ///< resident on the device: buffers and textures
 
     // On the host: what plans of draws are made from.
@@ -101,12 +130,17 @@ struct SurfaceModel {
 
     [[nodiscard]] bool isTriangles() const { return sideCount == 3; }
     [[nodiscard]] bool stretches() const { return points.stretches; }
-    /// Whether it holds the pose that motion is measured from.
-    [[nodiscard]] bool hasMotion() const { return points.before != points.now; }
+    /// Whether the surface was another one in the frame that motion is measured from.
+    [[nodiscard]] bool hasMotion() const {
+        return points.before != points.now || (function && tables.heightTime != tables.heightTimeBefore);
+    }
     [[nodiscard]] MapFormat mapFormat() const { return height ? height->format : MapFormat::real; }
 
-    /// The time that a height function is given, in seconds; 0 until it is set.
-    void setTime(double seconds) { tables.heightTime = float(seconds); }
+    /// The time that a height function is given, in seconds, and that of the frame that motion is measured from; 0
+    /// until they are set.
+    void setTime(double seconds, double before) {
+        tables.heightTime = float(seconds), tables.heightTimeBefore = float(before);
+    }
 
     /// Takes another pose's points in place of its own (module pose makes them). Bounds of normals are dropped with the
     /// old pose; those of faces stay until they are set.
@@ -120,7 +154,10 @@ private:
 
 struct MeshModelDesc {
     const DenseMesh* mesh = nullptr;
-    const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
+    const HeightMap* bump = nullptr;            ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
+    const NormalMap* normalMap = nullptr;       ///< ... unless the map is of object space
+    std::span<const vec3> tangentsS, tangentsT; ///< per vertex: derivatives of positions by s and by t
+    const Image* albedo = nullptr;              ///< as SurfaceModelDesc::albedo
 };
 
 /// A triangle mesh as it is: what displaced surfaces are compared with.
@@ -129,8 +166,9 @@ struct MeshModel {
 
     TexelBuffer vertices;  ///< two texels per vertex: position with height, normal
     TexelBuffer texCoords; ///< per vertex, or empty
+    TexelBuffer tangents;  ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
     Buffer indices;        ///< three 32-bit indices per triangle
-    std::optional<AlbedoMap> albedo;
+    ModelPictures pictures;
     std::uint32_t vertexCount = 0, triangleCount = 0;
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;

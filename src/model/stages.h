@@ -26,7 +26,9 @@ struct ShaderConstants {
     bool hasWideIndices = false, hasStraightCorners = false;
     std::uint32_t pass = kPassSurface;
     bool isMesh = false, isPlaced = false, hasInstances = false;
-    std::uint32_t entryCount = 0;     ///< kIdEntries
+    std::uint32_t entryCount = 0; ///< kIdEntries
+    bool hasTangents = false, hasSlopes = false;
+    std::uint32_t normalMap = kNormalMapNone;
     std::uint32_t heightFunction = 0; ///< HeightFunction::number()
     bool readsRest = false;
 
@@ -83,7 +85,7 @@ private:
     Owned<VkSampler> sampler_;
 };
 
-/// Fills a model's part of the inputs and binds its tables. The albedo map keeps the sampler that is bound.
+/// Fills a model's part of the inputs and binds its tables. Pictures keep the samplers that are bound.
 void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindings);
 void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings);
 

@@ -9,15 +9,21 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
                                 .cagePositions = object.cage.positions,
                                 .height = object.heightMap(),
                                 .encoding = &object.heightEncoding,
-                                .function = object.function ? &*object.function : nullptr,
+                                .function = object.functionHeights(),
+                                .bump = object.bumpMap(),
+                                .normalMap = object.normalMap ? &*object.normalMap : nullptr,
                                 .albedo = object.albedo ? &*object.albedo : nullptr});
-    model.setTime(object.time);
+    model.setTime(object.time, object.time);
     return model;
 }
 
 Model makeModel(Device& device, const LoadedObject& object) {
     if (!object.dense) return makeSurfaceModel(device, object);
-    return MeshModel(device, {.mesh = &*object.dense, .albedo = object.albedo ? &*object.albedo : nullptr});
+    MeshModelDesc desc{.mesh = &*object.dense,
+                       .bump = object.bumpMap(),
+                       .normalMap = object.normalMap ? &*object.normalMap : nullptr,
+                       .albedo = object.albedo ? &*object.albedo : nullptr};
+    return MeshModel(device, desc);
 }
 
 void keepRestPose(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {

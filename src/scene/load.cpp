@@ -27,19 +27,37 @@ Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
 
 /// What cannot work together, whatever the files hold.
 void checkUse(const ObjectDesc& desc, bool isDense) {
-    if (isDense && !(desc.height.path.empty() && desc.height.function.empty()))
+    const Detail detail = desc.height.detail;
+    if (!desc.height.function.empty() && (detail == Detail::bump || detail == Detail::both))
+        fail(Failure::usage, "{}: --detail {} takes its slopes from a height map; a function displaces",
+             desc.height.function, wordOf(kDetails, detail));
+    if (isDense && !desc.height.function.empty())
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
              "catmark, loop or bilinear",
+             desc.cage);
+    if (isDense && !desc.height.path.empty() && (detail == Detail::displacement || detail == Detail::both))
+        fail(Failure::usage,
+             "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
+             "catmark, loop or bilinear, or --detail bump",
              desc.cage);
 }
 
 void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) {
     if (desc.motion.time && !object.animation && !object.function)
-        fail(Failure::usage, "{}: --time asks for a pose; say what moves the cage: --cache, --skin or --deform",
+        fail(Failure::usage,
+             "{}: --time asks for a pose; say what moves the cage: --cache, --skin, --deform or a "
+             "--height-function",
              desc.cage);
     object.time = desc.motion.time.value_or(0);
     if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
+}
+
+/// Polygons that are drawn themselves have no (u,v) that could stand for texture coordinates.
+void checkMeshMaps(const LoadedObject& object, const ObjectDesc& desc) {
+    if (!object.dense || !object.dense->texCoords.empty()) return;
+    const std::string& map = object.bumpMap() != nullptr ? desc.height.path : desc.material.normalMap.path;
+    if (!map.empty()) fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
 }
 
 } // namespace
@@ -50,7 +68,8 @@ std::vector<std::string> listFiles(const ObjectDesc& object) {
             object.height.function,
             object.motion.cachePath,
             object.motion.skinPath,
-            object.material.albedo};
+            object.material.albedo,
+            object.material.normalMap.path};
 }
 
 std::vector<std::string> listFiles(const SceneDesc& scene) {
@@ -67,7 +86,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     LoadedObject object;
     const double start = secondsNow();
     object.cage = readCage(desc.cage, warn);
-    checkTexCoords(object.cage, {desc.height.path, desc.material.albedo}, warn);
+    checkTexCoords(object.cage, {desc.height.path, desc.material.albedo, desc.material.normalMap.path}, warn);
     const Subdivision subdivision = chooseSubdivision(desc, object.cage);
     const bool isDense = subdivision == Subdivision::none;
     checkUse(desc, isDense);
@@ -77,9 +96,11 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
         EncodedMap map = loadHeights(desc, object.cage, warn);
         object.height = std::move(map.decoded);
         object.heightEncoding = std::move(map.encoding);
+        object.detail = desc.height.detail;
         fitUnitToHeights(object, warn);
     }
-    if (!desc.height.function.empty()) object.function = loadFunction(desc, object.cage);
+    if (!desc.height.function.empty())
+        object.function = loadFunction(desc, object.cage), object.detail = desc.height.detail;
     object.animation = loadAnimation(desc.motion, object.cage, warn);
 
     // Point caches and skins fit the cage as it is in its file, so that it is welded after them.
@@ -109,6 +130,13 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
         // A height map has been named in such a warning already.
         if (object.height.path.empty()) warnOutsideMap(object, scene.object.cage, object.material.albedo, warn);
     }
+    const std::string& normals = object.material.normalMap.path;
+    if (!normals.empty()) {
+        scene.object.normalMap = loadNormals(object, scene.object, warn);
+        if (object.height.path.empty() && object.material.albedo.empty())
+            warnOutsideMap(object, scene.object.cage, normals, warn);
+    }
+    checkMeshMaps(scene.object, object);
     if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
     return scene;
 }

@@ -34,6 +34,14 @@ struct HeightDesc {
     std::optional<Wrap> wrap; ///< default: repeat, with a warning where texture coordinates leave 0..1
     std::optional<MapFormat> format;
     HeightSpace space = HeightSpace::absolute;
+    Detail detail = Detail::displacement; ///< for verbs that draw pictures
+};
+
+/// A normal map as NormalOptions describes it. The path is empty where there is none.
+struct NormalMapDesc {
+    std::string path;
+    NormalSpace space = NormalSpace::tangent;
+    NormalY y = NormalY::up;
 };
 
 /// What moves the cage. Paths and deformers are empty where they are not asked for.
@@ -52,6 +60,7 @@ struct MaterialDesc {
     std::string albedo;        ///< path of a color map, or empty
     std::optional<vec3> color; ///< linear, multiplies the map; default: that of Material, or white with a map
     float roughness = Material().roughness;
+    NormalMapDesc normalMap;
 };
 
 struct ObjectDesc {
@@ -91,14 +100,27 @@ struct LoadedObject {
     std::optional<DenseMesh> dense;       ///< instead of a surface, where the polygons are drawn themselves
     SurfaceOptions options;
     Surface surface;
-    std::optional<HeightMap> height;         ///< as the device reads it
+    std::optional<HeightMap> height; ///< as the device reads it
+    Detail detail = Detail::displacement;
     MapEncoding heightEncoding;              ///< how the device stores it
     std::optional<FunctionHeights> function; ///< instead of `height`; measureFunction() fills in its bounds
     double time = 0;                         ///< seconds, of the pose
     std::optional<Image> albedo;
+    std::optional<NormalMap> normalMap;
     double loadSeconds = 0, surfaceSeconds = 0; ///< what reading files and building the surface took
 
-    [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
+    /// The heights that move the surface, or null.
+    [[nodiscard]] const HeightMap* heightMap() const {
+        return height && (detail == Detail::displacement || detail == Detail::both) ? &*height : nullptr;
+    }
+    /// The function that moves the surface, or null.
+    [[nodiscard]] const FunctionHeights* functionHeights() const {
+        return function && detail != Detail::none ? &*function : nullptr;
+    }
+    /// The heights that bend its normals, or null.
+    [[nodiscard]] const HeightMap* bumpMap() const {
+        return height && (detail == Detail::bump || detail == Detail::both) ? &*height : nullptr;
+    }
     /// Of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
     [[nodiscard]] const Coordinates& coordinates() const;
 };
