@@ -1,8 +1,12 @@
 #include "formula/compile.h"
 
 #include <algorithm>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <set>
+
+#include <pthread.h>
 
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
@@ -97,7 +101,8 @@ std::string without(std::string text, std::string_view part) {
     const std::size_t start = std::min(log.find(kError), log.size());
     const std::string line = without(std::string(log.substr(start, log.find('\n', start) - start)), kFunctionPrefix);
     const std::string own = fmt::format("{}{}:", kError, function.name);
-    if (line.starts_with(own)) fail(Failure::input, "{}", line.substr(kError.size()));
+    if (line.starts_with(own))
+        fail(Failure::input, "{}", line.substr(kError.size(), line.find_last_not_of(' ') + 1 - kError.size()));
     if (!request.file.empty()) fail(Failure::internal, "{} with {}: {}", request.file, function.name, line);
     if (line.find("no matching overloaded function") != std::string::npos)
         fail(Failure::input, "{}: the function height is not float height(vec3 p, vec2 st, float t)", function.name);
@@ -137,8 +142,10 @@ void forbidContraction(std::vector<std::uint32_t>& words) {
 
 } // namespace
 
-std::vector<std::uint32_t> compileShader(const FunctionText& function, const IsolatedText& isolated,
-                                         const ShaderRequest& request) {
+namespace {
+
+std::vector<std::uint32_t> compile(const FunctionText& function, const IsolatedText& isolated,
+                                   const ShaderRequest& request) {
     startCompiler();
     const EShLanguage language = languageOf(request.file);
     const std::string_view text = request.file.empty() ? kEvaluator : findShaderSource(request.file)->text;
@@ -170,6 +177,45 @@ std::vector<std::uint32_t> compileShader(const FunctionText& function, const Iso
     options.disableOptimizer = true;
     glslang::GlslangToSpv(*program.getIntermediate(language), words, &options);
     forbidContraction(words);
+    return words;
+}
+
+/// The compiler walks through expressions by recursion, some hundred bytes of stack per operator: enough for
+/// kMostFunctionBytes of them.
+constexpr std::size_t kStackBytes = 256u << 20;
+
+/// Calls `work` on a thread with that stack, and waits for it. Exceptions arrive here.
+void runOnLargeStack(const std::function<void()>& work) {
+    struct Call {
+        const std::function<void()>& work;
+        std::exception_ptr error;
+    } call{work, nullptr};
+    const auto run = [](void* argument) -> void* {
+        auto& made = *static_cast<Call*>(argument);
+        try {
+            made.work();
+        } catch (...) {
+            made.error = std::current_exception();
+        }
+        return nullptr;
+    };
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, kStackBytes);
+    pthread_t thread{};
+    const int error = pthread_create(&thread, &attributes, run, &call);
+    pthread_attr_destroy(&attributes);
+    if (error != 0) fail(Failure::device, "no thread can be started to compile a height function: out of memory");
+    pthread_join(thread, nullptr);
+    if (call.error) std::rethrow_exception(call.error);
+}
+
+} // namespace
+
+std::vector<std::uint32_t> compileShader(const FunctionText& function, const IsolatedText& isolated,
+                                         const ShaderRequest& request) {
+    std::vector<std::uint32_t> words;
+    runOnLargeStack([&] { words = compile(function, isolated, request); });
     return words;
 }
 

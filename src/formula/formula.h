@@ -17,7 +17,7 @@ struct FunctionText {
 };
 
 /// Files of more bytes are refused.
-inline constexpr std::uint64_t kMostFunctionBytes = 1u << 18;
+inline constexpr std::uint64_t kMostFunctionBytes = 1u << 16;
 
 /// Turns that all loops of one evaluation may take together. Every loop counts: one that never ends is an error, not a
 /// program that hangs. Mesa 22.3's CPU driver ends the loops of an invocation after 65,535 turns without a word, which
@@ -67,8 +67,8 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
-/// Where compiled shaders are kept: relief in $XDG_CACHE_HOME, or in $HOME/.cache. Empty where RELIEF_CACHE is 0 or
-/// neither is set. It may be emptied at any time.
+/// Where compiled shaders are kept: the folder $RELIEF_CACHE, else relief in $XDG_CACHE_HOME or in $HOME/.cache. Empty,
+/// which keeps nothing, where RELIEF_CACHE is 0 or none of them is set. It may be deleted at any time.
 std::string shaderCacheFolder();
 
 // --- values -------------------------------------------------------------------------------------------------------

@@ -63,6 +63,7 @@ std::string Digest::name() const { return fmt::format("{:016x}{:016x}", halves[0
 std::string shaderCacheFolder() {
     const char* choice = std::getenv("RELIEF_CACHE");
     if (choice != nullptr && std::string_view(choice) == "0") return "";
+    if (const std::string folder = folderOf("RELIEF_CACHE"); !folder.empty()) return folder;
     if (const std::string cache = folderOf("XDG_CACHE_HOME"); !cache.empty()) return cache + "/relief";
     const std::string home = folderOf("HOME");
     return home.empty() ? "" : home + "/.cache/relief";

@@ -60,7 +60,8 @@ public:
         if (found.hasTooManyTurns)
             fail(Failure::device, "{}: loops take more than {} turns {}: does one never end?", name_,
                  kMostFunctionTurns, place());
-        if (!std::isfinite(value)) fail(Failure::input, "{}: height is {} {}", name_, found.value, place());
+        if (!std::isfinite(value))
+            fail(Failure::input, "{}: height is {} {}", name_, std::isnan(value) ? NAN : value, place());
         if (stated_ && std::abs(value) > *stated_ * (1 + 1e-5))
             fail(Failure::input, "{}: height is {:.6g} {}, more than its bound {:.6g}: raise kBound or --height-bound",
                  name_, value, place(), *stated_);
