@@ -88,17 +88,7 @@ HeightSample sampleLevel(uint map, vec2 st, uint number) {
 }
 
 #ifdef RELIEF_HEIGHT_FUNCTION
-#include "height_function.glsl" // made by src/formula: formula_value()
-
-float functionTime = inputs.model.heightTime; // layers.comp also asks for the frame before
-
-// Height by a function instead of a map, at a point of the limit surface at rest. No more than the bound, and never NaN: bounds
-// of faces and triangles hold whatever the function returns.
-float heightOfFunction(vec3 p, vec2 st) {
-    float value = formula_value(inputs.model.heightUnit * p, st, functionTime);
-    precise float h = inputs.model.maps[0].scale * (value - inputs.model.maps[0].mid);
-    return isnan(h) ? 0.0 : clamp(h, -inputs.model.heightBound, inputs.model.heightBound);
-}
+#include "function.glsl"
 #endif
 
 // Between two levels of the map.

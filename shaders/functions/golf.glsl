@@ -1,10 +1,9 @@
-// A golf ball's dimples: sines of x, y and z, the sum of three of them cut off from below and rounded. For cages about two to
-// four units large.
+// A golf ball's dimples where products of sines, or of cosines, of x, y and z are large: in the cells of a body-centred cubic
+// lattice. For cages some two to four units large.
 const float kBound = 0.03;
 
 float height(vec3 p, vec2 st, float t) {
-    vec3 s = sin(16.0 * p);
-    float wave = (s.x * s.y + s.y * s.z + s.z * s.x) / 3.0; // -1/3 to 1
-    float dimple = smoothstep(0.0, 0.6, wave);
-    return -kBound * dimple;
+    vec3 s = sin(12.0 * p), c = cos(12.0 * p);
+    float wave = max(abs(s.x * s.y * s.z), abs(c.x * c.y * c.z));
+    return -kBound * smoothstep(0.18, 0.75, wave);
 }

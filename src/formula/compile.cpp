@@ -17,7 +17,7 @@
 namespace relief {
 namespace {
 
-/// How the function is put among other text: `#include "height_function.glsl"` in shaders/heights.glsl means this. The
+/// How the function is put among other text: `#include "height_function.glsl"` in shaders/function.glsl means this. The
 /// second include is the function itself, under its author's name.
 std::string functionText(const IsolatedText& isolated) {
     return fmt::format("int formula_turns = 0;\n"

@@ -11,9 +11,9 @@ namespace {
 
 constexpr std::string_view kBuiltInFolder = "functions/", kExtension = ".glsl";
 
-/// Whether a file of shaders/ includes heights.glsl, or one that it includes does.
+/// Whether a file of shaders/ includes the function, or one that it includes does.
 bool evaluatesHeights(std::string_view file, std::set<std::string_view>& seen) {
-    if (file == "heights.glsl") return true;
+    if (file == "height_function.glsl") return true;
     const ShaderSource* source = findShaderSource(file);
     if (source == nullptr || !seen.insert(file).second) return false;
     constexpr std::string_view kInclude = "#include \"";
