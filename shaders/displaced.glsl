@@ -21,7 +21,11 @@ vec3 unitOr(vec3 m, vec3 n) {
 
 // (h_u, h_v)
 vec2 heightDerivatives(SurfacePoint point, HeightSample height) {
+#ifdef RELIEF_HEIGHT_FUNCTION
+    vec2 dh = height.gradient;
+#else
     vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
+#endif
     if (kStretches) dh += height.h * point.logStretch;
     return dh;
 }
@@ -62,7 +66,7 @@ struct DisplacedSample {
     float h;
     LimitFrame frame;
     vec3 n;          // unit limit normal of the frame
-    vec2 gradient;   // (h_s, h_t)
+    vec2 gradient;   // (h_s, h_t); of a height function (h_u, h_v)
     mat2 jacobian;   // of the texture coordinates
     vec4 gradientS;  // kHasTexGradients: as in varyings.glsl, in the model's own space
     vec4 gradientT;
@@ -104,9 +108,39 @@ void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample hei
     s.jacobian = point.tex.jacobian;
 }
 
+#ifdef RELIEF_HEIGHT_FUNCTION
+// How far along u or v the function's slope is taken: inputs.model.heightStep on the surface at rest, no more than 1/64 of a
+// patch of the base, where its tangent vanishes.
+float slopeStep(vec3 tangent) {
+    float size = length(tangent);
+    return size > 64.0 * inputs.model.heightStep ? inputs.model.heightStep / size : 1.0 / 64.0;
+}
+
+// h by the function, and (h_u, h_v) by central differences along the tangents: h_u = (h(p + d p_u, st + d st_u) - h(p - d p_u,
+// st - d st_u)) / 2d. One call in a loop: the compiler unfolds every one.
+HeightSample sampleFunction(LimitFrame rest, TexFrame tex) {
+    vec2 d = vec2(slopeStep(rest.pu), slopeStep(rest.pv));
+    HeightSample s = HeightSample(0.0, vec2(0));
+    for (uint i = 0u; i < (kNormal == kNormalLimit ? 1u : 5u); ++i) {
+        float along = i == 0u ? 0.0 : (i & 1u) == 1u ? 1.0 : -1.0;
+        vec2 step = along * (i < 3u ? vec2(d.x, 0.0) : vec2(0.0, d.y));
+        precise vec3 p = rest.p + step.x * rest.pu + step.y * rest.pv;
+        precise vec2 st = tex.st + tex.jacobian * step;
+        float h = heightOfFunction(p, st);
+        if (i == 0u) s.h = h;
+        else s.gradient += along * h * (i < 3u ? vec2(0.5 / d.x, 0.0) : vec2(0.0, 0.5 / d.y));
+    }
+    return s;
+}
+#endif
+
 HeightSample heightAt(SurfacePoint point, float level) {
     if (!kHasHeight) return HeightSample(0.0, vec2(0));
+#ifdef RELIEF_HEIGHT_FUNCTION
+    HeightSample height = sampleFunction(point.rest, point.tex);
+#else
     HeightSample height = sampleHeight(point.tex.st, level);
+#endif
     if (!kStretches) return height;
     precise float h = point.stretch * height.h;
     return HeightSample(h, point.stretch * height.gradient);

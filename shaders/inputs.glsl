@@ -15,6 +15,11 @@ layout(set = 0, binding = kBindInputs, scalar) uniform InputBlock { PassInputs i
 
 layout(constant_id = kIdHasMips) const bool kHasMips = false;
 layout(constant_id = kIdStretches) const bool kStretches = false; // heights grow with the surface since the rest pose
+#ifdef RELIEF_HEIGHT_FUNCTION
+layout(constant_id = kIdReadsRest) const bool kReadsRest = false; // heights depend on the rest pose, and it is another
+#else
+#define kReadsRest kStretches
+#endif
 layout(constant_id = kIdHasWideIndices) const bool kHasWideIndices = false;
 layout(constant_id = kIdHasTexGradients) const bool kHasTexGradients = false;
 layout(constant_id = kIdPass) const uint kPass = kPassSurface;

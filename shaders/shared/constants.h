@@ -32,7 +32,9 @@ RELIEF_CONSTANT uint kIdEntries = 19u;         // posing: entries per stencil bl
 RELIEF_CONSTANT uint kIdHasTexGradients = 20u; // vertices carry tangents and slopes, see varyings.glsl
 RELIEF_CONSTANT uint kIdHasSlopes = 21u;       // normals are bent by the slopes of heights, per fragment
 RELIEF_CONSTANT uint kIdNormalMap = 22u;       // kNormalMap...
-RELIEF_CONSTANT uint kIdCount = 23u;
+RELIEF_CONSTANT uint kIdHeightFunction = 23u;  // number of a height function, for keys of pipelines
+RELIEF_CONSTANT uint kIdReadsRest = 24u; // heights depend on the rest pose, and it is another than that of the frame
+RELIEF_CONSTANT uint kIdCount = 25u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

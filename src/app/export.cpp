@@ -42,15 +42,16 @@ EdgeRates computeRates(Device& device, const SurfaceModel& model, const LoadedOb
 Exported dice(const ExportArgs& args) {
     Progress progress("dicing", 4, args.output.progress);
     const ObjectDesc& desc = args.scene.object;
-    const LoadedObject object = load(desc, CageState::posed, makeWarn(args.output.isQuiet));
+    LoadedObject object = load(desc, CageState::posed, makeWarn(args.output.isQuiet));
     if (object.dense)
         fail(Failure::usage, "{}: only a subdivision surface can be diced into triangles; name its --scheme",
              desc.cage);
     progress.advance();
 
     Device device({.name = args.device});
+    measureFunction(device, object, desc.height, {{object.time}}, makeWarn(args.output.isQuiet));
     SurfaceModel model = makeSurfaceModel(device, object);
-    stretchHeights(device, model, object, desc.height.space);
+    keepRestPose(device, model, object, desc.height.space);
     progress.advance();
 
     // The size of the mesh is known once it is diced, and checked before it is read back.

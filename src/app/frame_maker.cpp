@@ -30,7 +30,8 @@ std::vector<int> listFrames(const AnimationArgs& args, const Animation* animatio
     dvec2 range(1, args.turntableCount);
     if (args.turntableCount == 0) {
         if (animation == nullptr)
-            fail(Failure::usage, "{}: nothing moves; name --cache, --skin, --deform or --turntable", object.cage);
+            fail(Failure::usage, "{}: nothing moves; name {}--cache, --skin, --deform or --turntable", object.cage,
+                 object.height.function.empty() ? "" : "the --frames of the height function, ");
         range = animation->keyRange() * object.motion.cache.fps;
         if (!(std::max(std::abs(range.x), std::abs(range.y)) <= kLargestFrame))
             fail(Failure::input, "{}: its keys are from {} to {} seconds; name the --frames{}", motionFile(object),
@@ -52,12 +53,26 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
         polygons_.emplace(object.cage, *object.animation, object.needsTangents);
     }
     frames_ = listFrames(args, object.animation.get());
+    device_ = std::make_unique<Device>(DeviceDesc{.name = args.picture.device});
+    measureFunction(*device_, object, desc.height, measuredTimes(), warn);
     placeScene();
     if (polygons_) object.dense = polygons_->makeMesh(toSeconds(frames_.front(), desc.motion));
     makeModel();
     checkFilter(args.picture, *device_, warn);
     renderer_ =
         std::make_unique<Renderer>(*device_, RendererDesc{.width = args.scene.size.x, .height = args.scene.size.y});
+}
+
+/// Times spread evenly over the frames, the first and the last one among them.
+std::vector<double> FrameMaker::measuredTimes() const {
+    constexpr std::size_t kMost = 9;
+    const std::size_t count = std::min(frames_.size(), kMost);
+    std::vector<double> times;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t frame = count > 1 ? i * (frames_.size() - 1) / (count - 1) : 0;
+        times.push_back(toSeconds(frames_[frame], args_.scene.object.motion));
+    }
+    return times;
 }
 
 /// Fixes the camera for all frames: it must not follow the object.
@@ -71,7 +86,6 @@ void FrameMaker::placeScene() {
 
 void FrameMaker::makeModel() {
     LoadedObject& object = loaded_.object;
-    device_ = std::make_unique<Device>(DeviceDesc{.name = args_.picture.device});
     model_ = std::make_unique<Model>(relief::makeModel(*device_, object));
     environment_ = makeEnvironment(*device_, loaded_);
     if (polygons_)
@@ -142,6 +156,8 @@ DrawnFrame FrameMaker::draw(int frame) {
         drawn.poseMs = poser_->stats().milliseconds;
     }
     if (meshPoser_) posePolygons(frame, drawn);
+    if (auto* surface = std::get_if<SurfaceModel>(model_.get()))
+        surface->setTime(toSeconds(frame, args_.scene.object.motion), toSeconds(frame - 1, args_.scene.object.motion));
     const Material material = makeMaterial(args_.scene.object.material, loaded_.object.textureColor);
     drawn.picture = renderer_->render(Instance(*model_, material), optionsAt(frame));
     return drawn;

@@ -90,11 +90,36 @@ struct FrameErrors {
     RegionErrors regular, endCaps;
 };
 
+/// A height function in double precision. Its values come from a shader that contains nothing else; points, texture
+/// coordinates and slopes are computed here. Slopes are central differences over FunctionHeights::step along p_u and
+/// p_v at rest, at most 1/64 of the face: h_u = (h(p + d p_u, st + d st_u) - h(p - d p_u, st - d st_u)) / 2d.
+class FunctionReference {
+public:
+    /// `rest`: the surface at rest. All of it has to outlive this.
+    FunctionReference(Device& device, const FunctionHeights& heights, const ReferenceSurface& rest, double seconds);
+
+    /// One height per query, with its slopes.
+    std::vector<FaceHeight> heights(std::span<const SampleQuery> queries);
+    /// One height per point (face, uv), without slopes.
+    std::vector<double> heightsAt(std::span<const std::pair<int, dvec2>> points);
+
+private:
+    std::vector<double> evaluate(std::span<const FunctionPoint> points);
+    [[nodiscard]] FunctionPoint pointAt(const dvec3& p, const dvec2& st) const;
+
+    const FunctionHeights& heights_;
+    const ReferenceSurface& rest_;
+    double seconds_;
+    FunctionEvaluator evaluator_;
+};
+
 struct FrameComparison {
     const ReferenceSurface* reference = nullptr;
     const HeightMap* height = nullptr; ///< or none
     NormalKind normal = NormalKind::full;
     double diagonal = 1; ///< of the cage's bounding box
+    /// One per query, in place of a map: FunctionReference::heights().
+    std::span<const FaceHeight> heights{};
 };
 
 /// What is wrong at one point, in the units of RegionErrors; not finite where a value is not.
@@ -104,7 +129,8 @@ struct SampleError {
     bool isApproximate = false;  ///< in an end cap
 
     // The device's displacement against that of the reference, for the device's own height and slopes: rough maps and
-    // texture coordinates of few digits do not count as errors of it.
+    // texture coordinates of few digits do not count as errors of it. Height functions have neither: there height and
+    // slopes are the reference's.
     bool isMisplaced = false; ///< q is farther from p + h n than 1e-6 of the diagonal and 1 % of |h|
     bool isMisturned = false; ///< the displaced normal is off by more than 0.1 degrees; by more where its terms cancel
 };
@@ -181,5 +207,7 @@ struct SeamReport {
 /// Measures all seams. Without texture coordinates every face takes the whole map, and every edge between faces can be
 /// a seam.
 SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference, const HeightMap& map);
+/// The same for a height function.
+SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference, FunctionReference& function);
 
 } // namespace relief

@@ -51,8 +51,9 @@ HeightSample sampleHeight(const HeightMap& map, const dvec2& st);
 struct SlopeMap {
     int width = 0, height = 0;
     std::uint32_t levelCount = 0;
-    float unit = 1;                    ///< the largest of level 0, cage units per unit of s and t
-    std::vector<std::uint32_t> texels; ///< h_s / unit and h_t / unit as two halves, level after level, rows from the top
+    float unit = 1; ///< the largest of level 0, cage units per unit of s and t
+    std::vector<std::uint32_t>
+        texels; ///< h_s / unit and h_t / unit as two halves, level after level, rows from the top
 };
 SlopeMap computeSlopes(const HeightMap& map);
 
@@ -172,5 +173,13 @@ struct DisplacedFrame {
 /// then, 4 at most.
 DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv,
                               const ReferenceSurface* rest = nullptr);
+
+/// A height and its derivatives by (u,v), cage units.
+struct FaceHeight {
+    double h = 0, hu = 0, hv = 0;
+};
+
+/// The same displaced by a height from elsewhere; hs and ht of DisplacedFrame::height are its derivatives by u and v.
+DisplacedFrame displacedFrame(const ReferenceSurface& surface, const FaceHeight& height, int face, const dvec2& uv);
 
 } // namespace relief

@@ -26,7 +26,8 @@ struct Camera {
 };
 
 /// Points that outline a displaced surface: a few per face, for framing. Uses the reference evaluator.
-std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map);
+/// `bound`: of heights that are no map's; points on both sides at that distance outline the surface then.
+std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map, double bound = 0);
 
 /// A camera that holds all `points` with a small margin.
 Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, double aspect);

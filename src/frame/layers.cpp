@@ -32,7 +32,7 @@ const Pipeline& Renderer::Parts::layerPipeline(const Frame& frame, const Drawn& 
     ShaderConstants constants = constantsOf(frame, drawn, DrawPass::layers);
     constants.wantsTexCoords = false;
     constants.hasMotion = drawn.surface != nullptr && drawn.surface->hasMotion();
-    return computePipeline("layers.comp", drawn.isTriangles(), constants);
+    return computePipeline("layers.comp", drawn.surface, constants);
 }
 
 /// Each instance writes the pixels that see it, the first one also those that see nothing.

@@ -81,8 +81,10 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     const Surface& surface = *desc.surface;
     RELIEF_CHECK(desc.cagePositions.size() == surface.controlPointCount);
 
-    // Maps first: the bounds of faces need the range of their heights.
-    if (desc.height != nullptr) {
+    // Heights first: the bounds of faces need their range.
+    if (desc.function != nullptr) {
+        setFunction(*desc.function);
+    } else if (desc.height != nullptr) {
         const MapEncoding asFloats;
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         checkMapSize(device, *desc.height, encoding.format);
@@ -103,9 +105,10 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     // Points of the pose that the cage is in, and the bounds of its faces.
     const std::vector<vec3> refined = refinePoints(surface, desc.cagePositions);
     faceTexBoxes = relief::faceTexBoxes(surface);
-    faceHeightBounds = relief::faceHeightBounds(heightPyramid, faceTexBoxes);
+    faceHeightBounds = function ? std::vector<float>(surface.faces.size(), height->heightBound)
+                                : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
     faceBounds = relief::faceBounds(surface, refined, faceHeightBounds);
-    if (enclosesVolume(surface)) {
+    if (enclosesVolume(surface) && !function) { // nothing bounds the slopes of a function
         faceNormals = relief::faceNormals(surface, refined);
         normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
     }
@@ -114,6 +117,17 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     for (const vec3& p : refined) texels.emplace_back(p, 1.0f);
     points.table = uploadTexels(device, {.name = "points"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
     byteCount = device.allocatedBytes() - before;
+}
+
+void SurfaceModel::setFunction(const FunctionHeights& heights) {
+    function = heights.function;
+    height.emplace();
+    height->record.scale = float(heights.scale);
+    height->record.mid = float(heights.mid);
+    height->heightBound = heights.bound;
+    tables.heightUnit = float(heights.unit);
+    tables.heightStep = heights.step;
+    faceHeightRanges = heights.faceRanges;
 }
 
 void SurfaceModel::setPoints(PointSets other) {

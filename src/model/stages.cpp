@@ -87,6 +87,8 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdIsPlaced] = isPlaced;
     values[kIdHasInstances] = hasInstances;
     values[kIdEntries] = entryCount;
+    values[kIdHeightFunction] = heightFunction;
+    values[kIdReadsRest] = readsRest;
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
@@ -100,7 +102,9 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),
             .hasWideIndices = model.hasWideIndices,
-            .hasStraightCorners = model.hasStraightCorners};
+            .hasStraightCorners = model.hasStraightCorners,
+            .heightFunction = model.function ? model.function->number() : 0,
+            .readsRest = model.points.rest.has_value()};
 }
 
 ShaderConstants constantsOf(const MeshModel& model) { return {.hasTexCoords = model.hasTexCoords, .isMesh = true}; }
@@ -121,6 +125,15 @@ PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::u
 
 Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles) {
     return {stage, shaderCode(file, isTriangles, device.traits().readsTablesAs)};
+}
+
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, const SurfaceModel& model) {
+    if (model.function) {
+        const std::span<const std::uint32_t> code =
+            model.function->shader(file, model.isTriangles(), device.traits().readsTablesAs);
+        if (!code.empty()) return {stage, code};
+    }
+    return shaderStage(device, stage, file, model.isTriangles());
 }
 
 PipelineLayoutDesc passLayout(const Device& device) {
@@ -176,7 +189,7 @@ void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindi
     if (model.height) {
         inputs.model.maps[0] = model.height->record;
         inputs.model.heightBound = model.height->heightBound;
-        bindings[kBindHeight] = model.height->words.binding();
+        if (!model.function) bindings[kBindHeight] = model.height->words.binding();
     }
     describePictures(model.pictures, inputs, bindings);
 }

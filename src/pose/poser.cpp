@@ -66,8 +66,8 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
     const Surface& surface = *desc.surface;
     push.pointCount = surface.controlPointCount;
     const auto setSize = std::uint32_t(surface.controlPointCount + surface.stencils.rowCount());
-    const bool stretches = desc.heightSpace == HeightSpace::stretch;
-    const std::uint32_t setCount = 1 + (desc.keepsBefore ? 1 : 0) + (stretches ? 1 : 0);
+    const bool stretches = desc.heightSpace == HeightSpace::stretch, keepsRest = stretches || model.function != nullptr;
+    const std::uint32_t setCount = 1 + (desc.keepsBefore ? 1 : 0) + (keepsRest ? 1 : 0);
     setFirsts = {0};
     if (desc.keepsBefore) setFirsts.push_back(setSize);
 
@@ -78,7 +78,8 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
                              .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
                             VK_FORMAT_R32G32B32A32_SFLOAT);
     sets.before = setFirsts.back();
-    if (stretches) sets.rest = (setCount - 1) * setSize;
+    if (keepsRest) sets.rest = (setCount - 1) * setSize;
+    sets.stretches = stretches;
     push.target = sets.table.buffer.address;
     const StencilBlocks blocks = stencilBlocks(surface.stencils);
     uploadStencils(blocks);

@@ -109,12 +109,11 @@ CapturedMesh Capture::patches() {
              device.traits().name);
     const DrawPlan plan = planPatches(
         model, rates, options.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw));
-    const bool isTriangles = model.isTriangles();
-    const Pipeline& pipeline = pipelineOf(
-        {shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "patch.vert", isTriangles),
-         shaderStage(device, VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", isTriangles),
-         shaderStage(device, VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch_capture.tese", isTriangles)},
-        VK_PRIMITIVE_TOPOLOGY_PATCH_LIST);
+    const Pipeline& pipeline =
+        pipelineOf({shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "patch.vert", model),
+                    shaderStage(device, VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", model),
+                    shaderStage(device, VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch_capture.tese", model)},
+                   VK_PRIMITIVE_TOPOLOGY_PATCH_LIST);
     const std::uint64_t vertexCount = plan.triangleCount * 3;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT);
     const auto bindTarget = PFN_vkCmdBindTransformFeedbackBuffersEXT(
@@ -141,9 +140,8 @@ CapturedMesh Capture::grids() {
         fail(Failure::usage, "{} does not let vertex shaders write: its grids cannot be read back",
              device.traits().name);
     const DrawPlan plan = planGrids(model, rates);
-    const Pipeline& pipeline =
-        pipelineOf({shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "grid_capture.vert", model.isTriangles())},
-                   VK_PRIMITIVE_TOPOLOGY_POINT_LIST);
+    const Pipeline& pipeline = pipelineOf({shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "grid_capture.vert", model)},
+                                          VK_PRIMITIVE_TOPOLOGY_POINT_LIST);
     std::uint64_t vertexCount = 0;
     for (const DrawBatch& b : plan.batches) vertexCount += std::uint64_t(b.columns + 1) * (b.rows + 1) * b.faceCount;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);

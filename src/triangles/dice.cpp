@@ -12,7 +12,10 @@ namespace relief {
 namespace {
 
 constexpr std::uint32_t kTileSamples = 1024; ///< of the insides of faces: enough for one load of control points
-constexpr std::uint64_t kVertexBytes = 32;   ///< position and height, normal
+/// With a height function. Mesa 22.3's CPU driver gives all loops of an invocation together 65,535 turns: those over
+/// the samples of a tile are to leave kMostFunctionTurns for each evaluation.
+constexpr std::uint32_t kFunctionTileSamples = 64;
+constexpr std::uint64_t kVertexBytes = 32; ///< position and height, normal
 constexpr std::uint64_t kTexGradientBytes = 32;
 
 std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
@@ -91,10 +94,7 @@ private:
     }
 
     void addTriangleInside(std::uint32_t face, std::uint32_t n) {
-        const std::uint32_t rows = std::max(kTileSamples / (n - 2), 1u);
-        for (std::uint32_t j = 1; j <= n - 2; j += rows)
-            work_.insides.push_back({face, 0, packed(1, j), packed(n - 2, std::min(rows, n - 1 - j)), packed(n, n), 0,
-                                     0, std::uint32_t(work_.vertexCount)});
+        addTiles({face, 0, 0, 0, packed(n, n), 0, 0, std::uint32_t(work_.vertexCount)}, {1, 1}, {n - 1, n - 1});
         work_.vertexCount += std::uint64_t(n - 1) * (n - 2) / 2;
     }
 
@@ -106,18 +106,28 @@ private:
                                 i1 = firstSample(leaf.u + 1, leaf.depth, m, f.rateU);
             const std::uint32_t j0 = firstSample(leaf.v, leaf.depth, n, f.rateV),
                                 j1 = firstSample(leaf.v + 1, leaf.depth, n, f.rateV);
-            if (i0 >= i1) continue;
-            const std::uint32_t rows = std::max(kTileSamples / (i1 - i0), 1u);
-            for (std::uint32_t j = j0; j < j1; j += rows)
-                work_.insides.push_back({face, leaf.patchIndex, packed(i0, j), packed(i1 - i0, std::min(rows, j1 - j)),
-                                         packed(m, n), leaf.depth, packed(leaf.u, leaf.v),
-                                         std::uint32_t(work_.vertexCount)});
+            addTiles({face, leaf.patchIndex, 0, 0, packed(m, n), leaf.depth, packed(leaf.u, leaf.v),
+                      std::uint32_t(work_.vertexCount)},
+                     {i0, j0}, {i1, j1});
         }
         work_.vertexCount += std::uint64_t(m - 1) * (n - 1);
     }
 
     [[nodiscard]] bool isRegular(const InsideTile& tile) const {
         return !model_.isTriangles() && model_.patchIsRegular[tile.patchIndex];
+    }
+
+    /// Tiles of the samples from `first` up to `end`, as wide as possible.
+    void addTiles(InsideTile tile, const uvec2& first, const uvec2& end) {
+        if (first.x >= end.x) return;
+        const std::uint32_t most = model_.function ? kFunctionTileSamples : kTileSamples;
+        const std::uint32_t columns = std::min(end.x - first.x, most), rows = std::max(most / columns, 1u);
+        for (std::uint32_t j = first.y; j < end.y; j += rows)
+            for (std::uint32_t i = first.x; i < end.x; i += columns) {
+                tile.firstIJ = packed(i, j);
+                tile.sizeIJ = packed(std::min(columns, end.x - i), std::min(rows, end.y - j));
+                work_.insides.push_back(tile);
+            }
     }
 
     /// The first inner sample at or past cell / 2^depth, at most n.

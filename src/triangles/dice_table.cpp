@@ -88,8 +88,10 @@ private:
             if (isSmooth(edge)) addRunsOf(edge);
     }
 
-    /// One run of vertices, all in one patch of the owner, which alone decides where they lie.
+    /// One run of vertices, all in one patch of the owner, which alone decides where they lie. With a height function
+    /// each vertex has an invocation of its own (kMostFunctionTurns).
     [[nodiscard]] bool isSmooth(std::uint32_t edge) const {
+        if (model_.function) return false;
         const Edge& record = model_.edges[edge];
         if (model_.isTriangles() || record.incidenceCount > 0 || incidences_.of(edge).empty() || isParted(edge))
             return false;

@@ -106,6 +106,11 @@ const std::vector<EdgeFootprint>& EdgeRater::Parts::edgeFootprints(const Surface
 std::vector<EdgeFootprint> EdgeRater::Parts::measureFootprints(const SurfaceModel& model) {
     std::vector<EdgeFootprint> edges;
     if (!model.height) return edges;
+    if (model.function) { // it has no texels
+        for (const Edge& edge : model.edges)
+            edges.push_back({0, model.faceHeightRanges.empty() ? 0 : model.faceHeightRanges[edge.owner.face]});
+        return edges;
+    }
     const std::vector<float> words = measure({.file = "footprints.comp", .floatCount = kFootprintFloats}, model, {});
     for (std::size_t i = 0; i < words.size(); i += kFootprintFloats) {
         const Range range =

@@ -58,6 +58,9 @@ std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std:
         download.record(commands, out);
     });
     std::ranges::copy(download.bytes(), std::as_writable_bytes(std::span(results)).begin());
+    // A function's slopes are those by (u,v) already, which the derivatives of texture coordinates must not turn.
+    if (model.function)
+        for (SampleResult& result : results) result.stu = {1, 0}, result.stv = {0, 1};
     return results;
 }
 
