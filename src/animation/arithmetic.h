@@ -53,9 +53,9 @@ struct Arithmetic {
     [[nodiscard]] double at(double t) const;
 };
 
-/// From loose to tight: + and -; * and /; a sign; ^, which groups from the right (-2^2 is -4, 2^3^2 is 2^9); then
-/// numbers, t, pi, sin(x), cos(x), abs(x), min(x, y), max(x, y) and parentheses. Stops at the first word that cannot go
-/// on. Throws Failure::usage with the column.
+/// Reads arithmetic. From loosely to tightly bound: + and -; * and /; a sign; ^, which groups from the right (-2^2 is
+/// -4, 2^3^2 is 2^9); then numbers, t, pi, sin(x), cos(x), abs(x), min(x, y), max(x, y) and parentheses. Stops at the
+/// first word that cannot go on. Throws Failure::usage with the column.
 Arithmetic readArithmetic(TextReader& text);
 
 } // namespace relief

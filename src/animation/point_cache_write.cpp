@@ -42,7 +42,7 @@ std::string pc2Header(const std::string& path, const CacheHeader& header) {
     putWord(bytes, 1, kPc2Order);
     putWord(bytes, header.pointCount, kPc2Order);
     putFloat(bytes, start, kPc2Order);
-    putFloat(bytes, 1, kPc2Order); // frames a sample
+    putFloat(bytes, 1, kPc2Order); // frames per sample
     putWord(bytes, header.frameCount, kPc2Order);
     return bytes;
 }

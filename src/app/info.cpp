@@ -197,7 +197,7 @@ void print(const json& object) {
 }
 
 void checkUsage(const InfoArgs& args) {
-    if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info wants files, or --devices");
+    if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info needs files, or --devices");
     const std::string& map = args.object.height.path;
     if (!map.empty() && std::ranges::count_if(args.files, isCage) != 1)
         fail(Failure::usage, "--height {}: name the one cage that the map is for", map);

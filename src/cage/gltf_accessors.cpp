@@ -164,7 +164,7 @@ GltfAccessors::Layout GltfAccessors::layout(const GltfElement& from, std::uint64
     return {.first = bytes.data() + offset, .stride = stride};
 }
 
-/// Some elements in other places than the rest (section 3.6.2.3).
+/// Reads where the elements are that a sparse accessor replaces (section 3.6.2.3).
 const GltfAccessors::Sparse* GltfAccessors::sparse(std::uint32_t accessor, std::uint64_t elementBytes,
                                                    std::uint64_t count, const std::string& place) {
     const GltfElement from = *document_.root().at("accessors", accessor).object("sparse");
@@ -197,7 +197,7 @@ const GltfAccessors::Sparse* GltfAccessors::sparse(std::uint32_t accessor, std::
 GltfAccessors::Elements GltfAccessors::elements(std::uint32_t index, const GltfUse& use) {
     static constexpr unsigned char kZeros[64] = {}; // an element of the largest type
     const GltfElement accessor = document_.entry("accessors", "accessor", index, use.place);
-    // What it says of itself.
+    // Its type and length, which must be those that are expected.
     const std::string type = accessor.need("type").text("type");
     if (type != typeName(use.type))
         failAtElement(document_.path, use.place, "accessor {} is of {}, {} expected", index, printable(type),
@@ -215,7 +215,7 @@ GltfAccessors::Elements GltfAccessors::elements(std::uint32_t index, const GltfU
     if (componentBytes(elements.componentType) == 0)
         failAtElement(document_.path, use.place, "accessor {} has components of unknown type {}", index,
                       elements.componentType);
-    // Where its elements are.
+    // The bytes that hold its elements.
     if (use.decoded != nullptr) {
         const int decodedType = componentTypeOf(use.decoded->data_type());
         if (decodedType != elements.componentType || std::uint64_t(use.decoded->num_components()) != elements.width)

@@ -1,5 +1,5 @@
-// The checks that tinyobjloader leaves out. It reads "0,5", "nan" and missing words as 0, takes indices past the end,
-// counts a face's corners in one byte, drops faces of two corners and knows no line numbers.
+// The checks that tinyobjloader does not make. It reads "0,5", "nan" and missing words as 0, takes indices past the
+// end, counts a face's corners in one byte, drops faces of two corners and reports no line numbers.
 #include "cage/obj.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr std::size_t kMaxLineBytes = 16'000'000; ///< the words of a line take 
 enum Kind { position, texCoord, normal, kindCount };
 constexpr std::array kKindNames = {"vertex", "texture coordinate", "normal"};
 
-/// What is known of one kind while the lines go by.
+/// What the lines read so far have of one kind.
 struct Values {
     std::size_t count = 0;
     std::size_t largestIndex = 0, largestIndexLine = 0;  ///< faces may come before their vertices: compared at the end

@@ -71,7 +71,7 @@ void findLargestGap(std::span<const LoneEdge> edges, std::size_t askedCount, Wat
         const auto ulps = float(gap.distance / ulpOf(gap.from, gap.to));
         if (ulps <= result.largestGapUlps) continue;
         result.largestGapUlps = ulps;
-        result.worstPlace = gap.from;
+        result.worstLocation = gap.from;
     }
 }
 
@@ -131,11 +131,11 @@ void countTJunctions(std::span<const LoneEdge> open, std::initializer_list<std::
     const std::vector<dvec3> ends = distinctEnds(open);
     const PointTree tree(ends);
     std::vector<char> isInside(ends.size(), 0);
-    constexpr double kTouching = 0;
+    constexpr double kInside = 0;
     for (const auto edges : carriers)
         for (const LoneEdge& edge : edges) {
             const Carrier carrier(edge);
-            tree.search([&](const Bounds& box) { return carrier.distanceTo(box); }, kTouching,
+            tree.search([&](const Bounds& box) { return carrier.distanceTo(box); }, kInside,
                         [&](std::uint32_t point) { isInside[point] |= char(carrier.holds(ends[point])); });
         }
     result.tJunctions = std::uint64_t(std::count(isInside.begin(), isInside.end(), 1));

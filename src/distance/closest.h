@@ -23,7 +23,7 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }
 
 private:
-    std::vector<vec3> positions_; ///< one more than there are: Embree reads 16 bytes a vertex
+    std::vector<vec3> positions_; ///< one more than there are: Embree reads 16 bytes per vertex
     std::vector<std::uint32_t> indices_;
     std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device_{rtcNewDevice(nullptr), rtcReleaseDevice};
     std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene_{nullptr, rtcReleaseScene};

@@ -81,7 +81,7 @@ struct Technique {
     std::uint32_t constant; ///< kShow... of shared/constants.h
     bool isLit = false;     ///< shadows, environment, tone curve; else colours to be seen as they are
     bool wantsAlbedo = false;
-    bool wantsFaces = false; ///< fragments know their face: a diced mesh is drawn face by face
+    bool wantsFaces = false; ///< fragments read the number of their face: a diced mesh is drawn face by face
     bool hasLines = false;   ///< a pass of lines over the surface
 };
 

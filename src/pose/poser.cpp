@@ -229,7 +229,7 @@ void Poser::pose(const Pose& now, const Pose* before) {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 
     std::vector<float> heightBounds = parts.model.faceHeightBounds;
-    for (float& reach : heightBounds) reach *= parts.mostStretch;
+    for (float& bound : heightBounds) bound *= parts.mostStretch;
     std::vector<Bounds> boxes =
         parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
     parts.bounds = {};

@@ -168,8 +168,8 @@ CameraOptions toLocal(const Coordinates& coordinates, const CameraOptions& world
 /// The camera of a scene; `points` outline the object, in its coordinates as the camera is then.
 Camera makeCamera(const SceneDesc& scene, const Coordinates& coordinates, std::span<const dvec3> points);
 
-/// The same options, with a point to look at and a distance from which all points are seen, from all sides of a turn if
-/// it is one. Options and points are in the object's coordinates.
+/// Completes options with a point to look at and a distance from which all points are seen, for a turntable from all
+/// its sides. Options and points are in the object's coordinates.
 CameraOptions holdAllPoints(const CameraOptions& options, std::span<const dvec3> points, double aspect, bool isTurn);
 
 /// The camera of options whose point to look at and distance are set, its depths fitted to the box around the object.
@@ -177,7 +177,7 @@ Camera placeCamera(const CameraOptions& options, const Bounds& bounds);
 
 /// `azimuth`: the camera's, degrees; the default key light follows it. `environment`: null for the built-in studio.
 Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment);
-/// The environment of a scene on the device; nothing where it has none of its own.
+/// Uploads the environment of a scene; empty where it has none of its own.
 std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded);
 Material makeMaterial(const MaterialDesc& desc);
 

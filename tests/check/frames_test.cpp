@@ -80,9 +80,9 @@ TEST(Frames, haveTheirErrorsSummedUp) {
     EXPECT_NEAR(e.tangent.max, 2e-3, 1e-6);
     EXPECT_NEAR(e.limitNormal.max, glm::degrees(0.1), 1e-3);
     EXPECT_LT(e.normal.max, 1e-4);
-    for (const SurfacePlace& place : {e.point.worst, e.tangent.worst, e.limitNormal.worst}) {
-        EXPECT_EQ(place.face, 7u);
-        EXPECT_EQ(place.uv, vec2(0.25f, 0.75f));
+    for (const SurfaceLocation& location : {e.point.worst, e.tangent.worst, e.limitNormal.worst}) {
+        EXPECT_EQ(location.face, 7u);
+        EXPECT_EQ(location.uv, vec2(0.25f, 0.75f));
     }
 }
 

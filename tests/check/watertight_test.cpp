@@ -75,7 +75,7 @@ TEST(Watertight, isNotAMeshWithOneCornerMovedByAnUlp) {
     EXPECT_EQ(w.openEdges, 4u) << "two of the triangle, two of its neighbours";
     EXPECT_EQ(w.tJunctions, 0u);
     EXPECT_EQ(w.largestGapUlps, 1);
-    EXPECT_NEAR(glm::length(w.worstPlace - vec3(1, 0.5f, 0.5f)), 0, 1e-6);
+    EXPECT_NEAR(glm::length(w.worstLocation - vec3(1, 0.5f, 0.5f)), 0, 1e-6);
     EXPECT_EQ(w.distinctPoints, 6u * 16 + 3);
 }
 
