@@ -93,12 +93,14 @@ inline void LanternBuilder::addFloor(const Loop& foot) {
 }
 
 inline Cage makeLantern() {
+    // Rings of points from the foot up, each with its turn, radius and height.
     LanternBuilder lantern;
     Loop foot = lantern.ring(0, 0.56, 0), sole = lantern.ring(0, 0.60, 0.10), waist = lantern.ring(0, 0.50, 0.20);
     std::array<Loop, 3> frame{lantern.ring(0, 0.54, 0.26), lantern.ring(0, 0.66, 0.76), lantern.ring(0, 0.54, 1.26)};
     Loop under = lantern.ring(0, 0.78, 1.26), eaves = lantern.ring(0, 0.80, 1.32),
          ridge = lantern.ring(0.5, 0.34, 1.62);
     Loop neck = lantern.ring(0.5, 0.20, 1.72), mouth = lantern.ring(0.5, 0.24, 1.92);
+    // Faces between neighbouring rings, with the interval of t that they have in texture space.
     lantern.addFloor(foot);
     lantern.addBand(foot, sole, 0.29, 0.32);
     lantern.addBand(sole, waist, 0.32, 0.37);
@@ -109,6 +111,7 @@ inline Cage makeLantern() {
     lantern.addRoof(eaves, ridge);
     lantern.addBand(ridge, neck, 0.86, 0.90, 0.5);
     lantern.addBand(neck, mouth, 0.90, 0.96, 0.5);
+    // Sharp at the foot, semi-sharp at the eaves.
     for (int i = 0; i < LanternBuilder::kSides; ++i) {
         int n = (i + 1) % LanternBuilder::kSides;
         lantern.cage.crease(foot[i], foot[n], 10);

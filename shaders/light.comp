@@ -82,7 +82,8 @@ vec3 shaded(vec3 position, vec3 n, vec3 v, vec3 albedo, Material material) {
     if (nl > 0.0) {
         vec3 arriving = inputs.light.keyRadiance * keyVisibility(position, n);
         diffuse += arriving * nl / kPi;
-        specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), material.roughness, f0);
+        specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), material.roughness,
+                                           f0);
     }
     return albedo * diffuse + specular;
 }

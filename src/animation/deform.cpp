@@ -115,8 +115,7 @@ std::vector<Deformer> readDeformers(const std::string& expression) {
 
 /// The box around the faces of a cage, in the coordinates of the poses that are deformed.
 Bounds boxOf(const Cage& cage, const Coordinates& coordinates) {
-    Bounds box;
-    for (const std::uint32_t point : cage.corners) box.add(cage.positions[point]);
+    const Bounds box = computeBounds(cage.corners, [&](std::uint32_t point) { return cage.positions[point]; });
     if (coordinates == cage.coordinates) return box;
     const Bounds world = cage.coordinates.toWorld(box);
     return {.lower = coordinates.toLocal(world.lower), .upper = coordinates.toLocal(world.upper)};

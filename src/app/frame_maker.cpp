@@ -63,7 +63,7 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
 void FrameMaker::placeScene() {
     const SceneDesc& scene = args_.scene;
     const std::vector<dvec3> points = computeOutlineOfAll(loaded_.object);
-    for (const dvec3& p : points) bounds_.add(p);
+    bounds_ = computeBounds(points);
     camera_ = holdAllPoints(toLocal(loaded_.object.coordinates(), scene.camera), points,
                             double(scene.size.x) / scene.size.y, args_.turntableCount > 0);
 }
@@ -124,8 +124,7 @@ void FrameMaker::posePolygons(int frame, DrawnFrame& drawn) {
     const DenseMesh mesh = polygons_->makeMesh(toSeconds(frame, args_.scene.object.motion));
     drawn.uploadedBytes = meshPoser_->upload(mesh.positions, mesh.normals);
     drawn.poseMs = 1e3 * (secondsNow() - start);
-    polygonBounds_ = {};
-    for (const vec3& p : mesh.positions) polygonBounds_.add(dvec3(p));
+    polygonBounds_ = computeBounds(mesh.positions);
 }
 
 DrawnFrame FrameMaker::draw(int frame) {

@@ -83,7 +83,7 @@ Picture drawHeatmap(Device& device, const DenseMesh& mesh) {
     options.show = Show::height;
     options.camera = frameCamera(points, {}, 1);
     options.lighting.castsShadows = false;
-    for (const dvec3& p : points) options.bounds.add(p);
+    options.bounds = computeBounds(points);
     const MeshModel model(device, {.mesh = &mesh});
     Renderer renderer(device, {.width = kHeatmapSide, .height = kHeatmapSide, .shadowSide = 1});
     return renderer.render(model, options);

@@ -177,9 +177,11 @@ bool isEmpty(const std::string& key, const json& value) {
     return value.is_null() || isZero || (value.is_structured() && value.empty());
 }
 
+constexpr int kNameColumns = 32; ///< as wide as the longest name that reports have
+
 void printRow(std::string name, const std::string& text) {
     std::ranges::replace(name, '_', ' ');
-    std::cout << fmt::format("  {:28} {}\n", name, onOneLine(text));
+    std::cout << fmt::format("  {:{}} {}\n", name, kNameColumns, onOneLine(text));
 }
 
 /// Prints one `name  value` per line, in the JSON's words, and one line per limit. Zeros and what is empty are omitted.

@@ -1,8 +1,8 @@
 #include "base/base.h"
+#include "base/clock.h"
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
 #include <cstdio>
 
 #include <unistd.h>
@@ -13,10 +13,6 @@ namespace {
 
 constexpr int kBarCells = 20;
 constexpr double kQuietSeconds = 1; // work that ends sooner needs no bar
-
-double secondsNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 bool isWanted(ShowProgress show) {
     return show == ShowProgress::always || (show == ShowProgress::automatic && isatty(STDERR_FILENO) == 1);

@@ -111,6 +111,8 @@ void ObjScanner::scanLine(std::string_view line) {
     checkLength(line.size());
     if (line.find('\0') != std::string_view::npos)
         failHere("there is a zero byte in this line; save the file as plain UTF-8 text");
+
+    // Names may contain blanks, so they are not split into words; smoothing groups and material files have no effect.
     const std::string_view keyword = firstWord(line);
     const std::string_view rest = trimmed(line.substr(keyword.size()));
     if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
@@ -119,6 +121,7 @@ void ObjScanner::scanLine(std::string_view line) {
     }
     if (keyword == "s" || keyword == "mtllib") return;
 
+    // Lines of numbers and faces are checked, then kept for tinyobjloader.
     splitWords(rest);
     if (keyword == "t") return scanTag();
     if (keyword == "v")

@@ -25,6 +25,9 @@ struct Camera {
     double fieldOfView = 30, nearDistance = 0.1, farDistance = 10;
 };
 
+/// Makes the surface of a cage with little refinement: precise enough for outline(), and quick.
+ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme);
+
 /// Points that outline a displaced surface: a few per face, for framing. Uses the reference evaluator.
 std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map);
 

@@ -50,6 +50,7 @@ void Renderer::Parts::useEnvironment(Frame& frame) {
 
 /// Camera and light in the world, and the samples of the picture: what the passes over pixels read.
 void Renderer::Parts::describeView(Frame& frame) {
+    // The camera. fromClip is inverted in double precision: its terms differ by many orders of magnitude.
     const RenderOptions& o = frame.options;
     pass::View& view = frame.inputs.view;
     const double aspect = double(desc.width) / desc.height;
@@ -60,6 +61,7 @@ void Renderer::Parts::describeView(Frame& frame) {
     view.eye = vec3(o.camera.eye);
     view.pictureSize = {desc.width, desc.height};
 
+    // The key light, slightly warm. Its shadow is softened over three texels and biased by one and a half.
     pass::Light& light = frame.inputs.light;
     const dvec3 key = directionAt(o.lighting.keyAzimuth, o.lighting.keyElevation);
     light.keyDirection = vec3(key);
@@ -68,6 +70,8 @@ void Renderer::Parts::describeView(Frame& frame) {
     light.toShadow = shadowMatrix(key, o.bounds);
     light.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
     light.shadowSoftness = 3.0f / float(desc.shadowSide);
+
+    // The samples that light.comp reads.
     frame.bindings = resources.bindings();
     useEnvironment(frame);
     frame.inputs.material = frame.materials.front();
@@ -83,6 +87,7 @@ void Renderer::Parts::describeView(Frame& frame) {
 Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Instance& instance, std::size_t number) {
     Drawn drawn{.surface = instance.surface, .mesh = instance.mesh};
 
+    // Everything that the frame has, with the tables of this model in place of none.
     drawn.inputs = frame.inputs;
     drawn.bindings = frame.bindings;
     if (drawn.surface != nullptr)
@@ -94,6 +99,7 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
     drawn.bindings[kBindInputs].uniform = inputBuffers[number].handle.get();
     drawn.inputs.material = frame.materials[number];
 
+    // Vertices stay in the model's own space, where floats are precise; the matrices lead from there.
     const glm::dmat4 toWorld(instance.toWorld), fromWorld = glm::inverse(toWorld);
     const double scale = scaleOf(instance.toWorld);
     RELIEF_CHECK(scale > 0);

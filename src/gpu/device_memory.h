@@ -58,4 +58,17 @@ private:
     std::uint64_t takenBytes_ = 0, peakBytes_ = 0, reservedBytes_ = 0;
 };
 
+/// Takes memory for a new buffer or image and binds it. `getNeeds` and `bind` are Vulkan's functions for its
+/// kind. Throws as DeviceMemory::take().
+template <BlockContent kContent, typename Handle, typename GetNeeds, typename Bind>
+Allocation bindMemory(Device& device, Handle handle, VkMemoryPropertyFlags flags, GetNeeds getNeeds, Bind bind) {
+    VkMemoryRequirements needs;
+    getNeeds(device.handle(), handle, &needs);
+    const MemoryRange range = device.memory().take(needs, flags, kContent);
+    Allocation allocation(device, range);
+    checkVulkan(bind(device.handle(), handle, range.block->handle, range.offset),
+                kContent == BlockContent::buffers ? "vkBindBufferMemory" : "vkBindImageMemory");
+    return allocation;
+}
+
 } // namespace relief

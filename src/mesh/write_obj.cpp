@@ -67,10 +67,13 @@ void putPositions(ObjLines& lines, const DenseMesh& mesh, const UniquePoints& po
 void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
     const std::size_t triangleCount = mesh.indices.size() / 3;
     const UniquePoints positions = findUniquePoints(mesh.positions);
+    // Readers refuse degenerate faces: they are omitted, but a file without any face is no mesh.
     std::size_t soundCount = 0;
     for (std::size_t i = 0; i < triangleCount; ++i) soundCount += isDegenerate(mesh, positions, i) ? 0 : 1;
     if (soundCount == 0)
         fail(Failure::input, "{}: not written: every triangle of the mesh names a position twice", file.path());
+
+    // Positions once each; texture coordinates and normals as vertices have them.
     Progress progress("writing", positions.count() + mesh.texCoords.size() + mesh.normals.size() + triangleCount, show);
     ObjLines lines(file);
     putPositions(lines, mesh, positions, progress);
@@ -78,6 +81,8 @@ void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
         lines, "vt", mesh.texCoords.size(), [&](std::size_t i) { return mesh.texCoords[i]; }, progress);
     putValues(
         lines, "vn", mesh.normals.size(), [&](std::size_t i) { return mesh.normals[i]; }, progress);
+
+    // Corners name all three by numbers from 1.
     putEach(triangleCount, progress, [&](std::size_t triangle) {
         if (isDegenerate(mesh, positions, triangle)) return;
         lines.word("f");

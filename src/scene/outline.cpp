@@ -3,13 +3,7 @@
 namespace relief {
 namespace {
 
-constexpr int kCoarseIsolation = 2; ///< enough for framing
-
 std::vector<dvec3> positionsOf(const std::vector<vec3>& positions) { return {positions.begin(), positions.end()}; }
-
-ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme) {
-    return {cage, {.scheme = scheme, .isolation = kCoarseIsolation}};
-}
 
 std::vector<vec3> positionsAt(const Animation& animation, double seconds) {
     return posedPositions(animation.rig(), animation.pose(seconds));

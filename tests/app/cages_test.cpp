@@ -114,7 +114,8 @@ TEST_F(OddCages, ofTrianglesWithTagsAskForAScheme) {
     expectRefused(relief(verbs()[1]), Failure::usage, {"--scheme"});
 }
 
-// --- vertices at one place -----------------------------------------------------------------------------------------
+// --- vertices at the same position
+// -----------------------------------------------------------------------------------------
 
 /// A cube whose faces have vertices of their own; `shift` moves every second one along x.
 std::string unweldedCube(double shift = 0) {

@@ -249,7 +249,7 @@ TEST(ObjLoader, warnsOfRulesThatDiffer) {
     EXPECT_TRUE(warnings.has("line 6"));
 }
 
-TEST(ObjLoader, isSilentAboutWhatSubdivisionNeedsNot) {
+TEST(ObjLoader, doesNotWarnOfLinesThatSubdivisionIgnores) {
     EXPECT_NO_THROW(parse("mtllib a.mtl\n" + kSquare + "s off\ns 1\nf 1 2 3 4\n"));
 }
 

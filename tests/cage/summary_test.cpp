@@ -86,7 +86,7 @@ TEST(Summary, sortsFacesBySize) {
     EXPECT_FALSE(mixedFaces().isAllTriangles());
 }
 
-TEST(Summary, leavesUnusedVerticesOutOfTheBounds) {
+TEST(Summary, ignoresUnusedVerticesInTheBounds) {
     Cage cage = cube();
     cage.positions.emplace_back(100, 0, 0);
     EXPECT_EQ(summarize(cage).unusedVertexCount, 1u);

@@ -1,4 +1,4 @@
-// Errors that are put into the reference's own frames must come out again, with their places.
+// Errors that are put into the reference's own frames must be found again, at their locations.
 #include <cmath>
 #include <limits>
 
@@ -186,7 +186,7 @@ TEST(Samples, knowWhereThereIsNoCurvature) {
     EXPECT_EQ(withoutCurvature(hardCube(), {.isolation = 3}).size(), 0u) << "corner patches have a curvature";
 }
 
-TEST(Samples, alwaysReachTheInsideOfFaces) {
+TEST(Samples, areAlwaysInsideOfFacesToo) {
     EXPECT_EQ(sampleEverywhere(buildSurface(cube(), {.isolation = 1}), 0).queries.size(), 6u * 9);
     EXPECT_EQ(sampleEverywhere(buildSurface(icosahedron(), {.scheme = Scheme::loop, .isolation = 1}), 0).queries.size(),
               20u * 10);
