@@ -9,14 +9,14 @@ constexpr double kLanternTurn = 0.96 / 8.5;           ///< of s, one side of the
 constexpr double kPanelLow = 0.40, kPanelHigh = 0.66; ///< the panels' lower and upper border in t
 
 /// Texture coordinates as sides of the lantern, and 0..1 over the height of a panel.
-inline dvec2 lanternPlace(const dvec2& st) {
+inline dvec2 lanternCoordinates(const dvec2& st) {
     return {(st.x - 0.02) / kLanternTurn, (st.y - kPanelLow) / (kPanelHigh - kPanelLow)};
 }
 
 struct LanternBuilder {
     static constexpr int kSides = 8;
     CageBuilder cage;
-    std::map<std::pair<long, long>, std::uint32_t> texes; ///< of the current island, by place
+    std::map<std::pair<long, long>, std::uint32_t> texes; ///< of the current island, by coordinates
 
     /// A point at `turn` eighths around the axis; odd rings may stand half a side on.
     std::uint32_t point(double turn, double radius, double y) {
@@ -28,7 +28,7 @@ struct LanternBuilder {
         for (int i = 0; i < kSides; ++i) loop.push_back(point(i + shift, radius, y));
         return loop;
     }
-    /// A corner whose texture place is `turn` eighths along and `up` high; equal places are one.
+    /// A corner whose texture coordinates are `turn` eighths along and `up` high; equal ones are shared.
     Corner corner(std::uint32_t point, double turn, double up) {
         dvec2 st(0.02 + kLanternTurn * turn, up);
         auto [entry, isNew] = texes.insert({{std::lround(st.x * 1e5), std::lround(st.y * 1e5)}, 0});

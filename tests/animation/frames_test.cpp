@@ -86,7 +86,7 @@ TEST(CageSequence, blendsOverGaps) {
     EXPECT_TRUE(haveSameBits(step->pose(5.0 / 24).positions, movedPoints(cube(), 2)));
 }
 
-TEST(CageSequence, passesOverFilesOfOtherPatterns) {
+TEST(CageSequence, skipsFilesOfOtherPatterns) {
     const TemporaryFolder folder;
     putFrames(folder, "a.{frame:4}.obj", cube(), {3, 4});
     for (const std::string name : {"a.5.obj", "a.00006.obj", "a.0007.obj.bak", "b.0008.obj", "a.-009.obj", "a..obj",

@@ -72,7 +72,7 @@ std::vector<dvec3> asDoubles(const std::vector<vec3>& points) { return {points.b
 
 const std::vector<vec3> kArm = {{0, 0, 0}, {1, 0.5f, 0}, {2, 0.25f, 0.5f}};
 
-/// One influence a row; weights of the elbow are shared.
+/// One influence per row; weights of the elbow are shared.
 GltfFile arm() {
     GltfFile file;
     file.addMesh(kArm, {0, 1, 2});

@@ -125,7 +125,7 @@ TEST(Info, ofACageAndItsMapSaysHowFarSeamsDisagree) {
     EXPECT_TRUE(contains(flat.err, "8-bit")) << flat.err;
 }
 
-TEST(Info, withAMapWantsOneCage) {
+TEST(Info, withAMapNeedsOneCage) {
     const TemporaryFolder folder;
     writeImage(folder / "map.exr", sineImage(8, 1), SampleType::real);
     const std::string height = "--height " + (folder / "map.exr");

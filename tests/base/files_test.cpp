@@ -88,7 +88,7 @@ TEST(WriteWhole, refusesToReplaceDevicesAndFolders) {
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-TEST(WriteWhole, passesOverTemporaryNamesThatAreTaken) {
+TEST(WriteWhole, skipsTemporaryNamesThatAreTaken) {
     const TemporaryFolder folder;
     for (int i = 0; i < 300; ++i) putFile(folder / fmt::format(".relief-{}-{}", getpid(), i), "other");
     writeFile(folder / "a.txt", "new");

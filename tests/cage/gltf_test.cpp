@@ -272,7 +272,7 @@ TEST(GltfCage, pointsAndLinesAreNoSurface) {
     expectFailure(Failure::input, {"no triangles"}, [&] { readFileOf(file, warnings.warn()); });
 }
 
-TEST(GltfCage, neverLooksAtPicturesAndForeignWords) {
+TEST(GltfCage, neverReadsPicturesAndUnknownMembers) {
     GltfFile file = triangle();
     file.json["images"] = {{{"uri", "../not-there.png"}}, {{"bufferView", 999}, {"mimeType", "image/png"}}, 7};
     file.json["textures"] = "nonsense";

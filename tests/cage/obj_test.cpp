@@ -304,7 +304,7 @@ TEST(ObjWriter, aNameCannotBreakItsLine) {
     EXPECT_EQ(readCage(folder / "a.obj").faceCount(), 6u);
 }
 
-TEST(ProductionCages, load) {
+TEST(ProductionCages, loadWithoutWarningsAndWithTheirCounts) {
     const std::string folder = productionFolder();
     if (folder.empty()) GTEST_SKIP() << "no production meshes; set RELIEF_DATA to their folder";
     const auto expectCounts = [&](const std::string& name, std::uint64_t faces, std::uint64_t vertices,

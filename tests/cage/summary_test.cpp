@@ -70,7 +70,7 @@ TEST(Summary, findsNonManifoldEdges) {
     EXPECT_EQ(summarize(moebiusStrip()).nonManifoldEdgeCount, 1u);
 }
 
-TEST(Summary, knowsValences) {
+TEST(Summary, countsValences) {
     EXPECT_EQ(summarize(torusWithSeams()).irregularVertexCount, 0u);
     EXPECT_EQ(summarize(triangleTorus()).irregularVertexCount, 0u);
     EXPECT_EQ(summarize(icosahedron()).irregularVertexCount, 12u);

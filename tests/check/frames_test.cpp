@@ -168,7 +168,7 @@ TEST(Samples, coverTheFacesThatAreDrawn) {
 }
 
 // Quads: the eight corners of the cube are corners of end caps, a face has 4 of them. Triangles likewise.
-TEST(Samples, knowWhereThereIsNoCurvature) {
+TEST(Samples, markWhereThereIsNoCurvature) {
     const auto withoutCurvature = [](const Cage& cage, const SurfaceOptions& options, std::size_t budget = 0) {
         const SurfaceSamples samples = sampleEverywhere(buildSurface(cage, options), budget);
         std::vector<SampleQuery> found;

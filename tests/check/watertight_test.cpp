@@ -138,7 +138,7 @@ TEST(Watertight, countsAllTJunctionsOfALongSeamInAnyDirection) {
     EXPECT_EQ(checkWatertight(mesh, 300).tJunctions, 150u);
 }
 
-TEST(Watertight, knowsTheBoundaryOfTheCage) {
+TEST(Watertight, acceptsTheBoundaryOfTheCage) {
     const CapturedMesh mesh = openGrid(5, 3);
     const Watertightness w = checkWatertight(mesh, 16);
     EXPECT_TRUE(w.isWatertight());

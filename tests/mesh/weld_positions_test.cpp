@@ -8,7 +8,7 @@
 namespace relief::test {
 namespace {
 
-/// A cage as a dense mesh with hard edges: one vertex a corner.
+/// A cage as a dense mesh with hard edges: one vertex per corner.
 DenseMesh faceted(const Cage& cage) {
     Cage hard = cage;
     hard.normals.clear(), hard.normalCorners.clear();

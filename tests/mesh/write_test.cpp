@@ -218,7 +218,7 @@ struct Glb {
     }
 };
 
-TEST(WriteGlb, holdsTheMeshAsGltfWantsIt) {
+TEST(WriteGlb, holdsTheMeshAsGltfRequires) {
     const DenseMesh mesh = square();
     const Glb glb(written(mesh, "a.glb"));
     const nlohmann::json& attributes = glb.primitive().at("attributes");

@@ -263,7 +263,7 @@ TEST(Owners, FormTheTopologyOfTheCage) {
     EXPECT_EQ(eulerCharacteristic(buildSurface(pentagons(), {})), 1);
 }
 
-TEST(Owners, KnowWhetherTheSurfaceIsClosed) {
+TEST(Owners, FindWhetherTheSurfaceIsClosed) {
     EXPECT_TRUE(buildSurface(prism(5), {}).isClosed);
     EXPECT_TRUE(buildSurface(test::torusWithSeams(), {}).isClosed);
     EXPECT_TRUE(buildSurface(icosahedron(), {Scheme::loop, 3}).isClosed);

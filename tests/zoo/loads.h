@@ -35,7 +35,7 @@ struct Pen {
     Scheme scheme = Scheme::catmark;
     std::vector<ZooCage> cages;
 
-    /// 4 x 4 cages a layer, far enough apart.
+    /// 4 x 4 cages per layer, far enough apart.
     static vec3 offsetOf(std::size_t number) {
         const vec3 slot(number % 4, number / 4 % 4, number / 16);
         return 9.0f * slot - vec3(13);
