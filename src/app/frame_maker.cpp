@@ -92,7 +92,7 @@ void FrameMaker::makeModel() {
     malloc_trim(0);
 }
 
-/// Of the object in the pose that is drawn, or in all poses where the device does not move it.
+/// The box around the object in the pose that is drawn, or in all poses where the device does not move it.
 Bounds FrameMaker::boundsNow() const {
     if (poser_) return poser_->bounds();
     return meshPoser_ ? polygonBounds_ : bounds_;

@@ -231,7 +231,7 @@ void ObjScanner::notePresence(Kind kind, std::size_t cornersWith) {
     if (cornersWith < words_.size() && values.firstLineWithout == 0) values.firstLineWithout = line_;
 }
 
-/// For a texture coordinate that does not exist, in a file whose normals no face names.
+/// The hint for a texture coordinate that does not exist in a file whose normals no face names; else "".
 const char* ObjScanner::slashHint(Kind kind) const {
     const bool isLikely = kind == texCoord && values_[normal].count > 0 && values_[normal].firstLineWith == 0;
     return isLikely ? "; if it counts normals, write v//vn" : "";

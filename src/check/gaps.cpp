@@ -12,7 +12,7 @@ constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Largest difference of a coordinate.
+/// The largest difference of two points in any coordinate.
 double apart(const vec3& a, const vec3& b) { return largest(dvec3(a) - dvec3(b)); }
 
 /// The unit in the last place of the largest coordinate of both points.
@@ -33,7 +33,7 @@ Gap gapBetween(const vec3& a, const vec3& b, const vec3& c, const vec3& d) {
     return ac > bd ? Gap{ac, a, c} : Gap{bd, b, d};
 }
 
-/// Between two edges in the direction in which they fit better.
+/// The gap between two edges, end to end, in the direction in which it is smaller.
 Gap gapBetween(const LoneEdge& e, const LoneEdge& f) {
     const Gap same = gapBetween(e.ends[0], e.ends[1], f.ends[0], f.ends[1]);
     const Gap turned = gapBetween(e.ends[0], e.ends[1], f.ends[1], f.ends[0]);
@@ -49,7 +49,7 @@ PointTree treeOfMiddles(std::span<const LoneEdge> edges) {
     return PointTree(std::move(middles));
 }
 
-/// From edge `self` to the nearest other one: middles are never farther apart than the ends.
+/// The gap from edge `self` to the nearest other one. Middles of edges are never farther apart than the ends.
 Gap nearestGap(const PointTree& middles, std::span<const LoneEdge> edges, std::uint32_t self) {
     const LoneEdge& edge = edges[self];
     Gap best{.distance = apart(edge.ends[0], edge.ends[1]), .from = edge.ends[0], .to = edge.ends[1]};

@@ -17,7 +17,8 @@ public:
     ClosestPoints(const ClosestPoints&) = delete;
     ClosestPoints& operator=(const ClosestPoints&) = delete;
 
-    /// To the nearest point; `limit` is a distance within which there is one (a good guess makes it quick).
+    /// Computes the distance from `p` to the nearest point. `limit`: a distance within which there is one; the closer
+    /// the quicker.
     [[nodiscard]] double distance(const dvec3& p, double limit) const;
     [[nodiscard]] const std::vector<vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }

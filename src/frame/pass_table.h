@@ -36,7 +36,7 @@ struct DrawPassRow {
     bool drawsLines = false;
 };
 
-/// In the order of DrawPass.
+/// The rows of all passes, in the order of DrawPass.
 constexpr DrawPassRow kDrawPasses[] = {
     {.name = "shadow", .constant = kPassShadow, .depth = kShadowFormat, .drawsHidden = true},
     {.name = "surface",
@@ -85,7 +85,7 @@ struct Technique {
     bool hasLines = false;   ///< a pass of lines over the surface
 };
 
-/// In the order of Show.
+/// The rows of all techniques, in the order of Show.
 constexpr Technique kTechniques[] = {
     {.show = Show::shaded, .constant = kShowShaded, .isLit = true, .wantsAlbedo = true},
     {.show = Show::normal, .constant = kShowNormal},

@@ -14,7 +14,7 @@ SamplerDesc clampedSampler(VkFilter filter) {
             .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
 }
 
-/// Of a rotation with a uniform scale.
+/// The scale of a matrix that rotates and scales uniformly.
 double scaleOf(const mat4& toWorld) { return std::cbrt(glm::determinant(glm::dmat3(mat3(toWorld)))); }
 
 } // namespace

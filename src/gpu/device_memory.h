@@ -36,7 +36,7 @@ public:
     /// Throws Failure::device where the heap does not hold `needs` beside what is taken, or the driver refuses.
     MemoryRange take(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags, BlockContent content);
     void giveBack(const MemoryRange& range);
-    /// Where the host sees the range; only of memory taken with VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT.
+    /// Maps the range for the host; only of memory taken with VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT.
     void* map(const MemoryRange& range);
 
     [[nodiscard]] std::uint64_t takenBytes() const { return takenBytes_; }

@@ -40,7 +40,7 @@ RenderOptions PictureComparison::renderOptions(std::size_t view) const {
     return options;
 }
 
-/// As relief render writes it: differences are those of the files that a user sees.
+/// Writes the picture as relief render does and reads it back: differences are those that a user sees.
 PictureComparison::View PictureComparison::finish(const Picture& picture) {
     const std::string path = folder_ / "picture.png";
     writePicture(path, picture);

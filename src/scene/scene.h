@@ -94,7 +94,7 @@ struct LoadedObject {
     double loadSeconds = 0, surfaceSeconds = 0; ///< what reading files and building the surface took
 
     [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
-    /// Of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
+    /// Coordinates of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
     [[nodiscard]] const Coordinates& coordinates() const;
 };
 
@@ -117,8 +117,8 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
 /// Joins boundary vertices of a cage that nothing moves. Throws Failure::usage when no face is left.
 Cage weldCage(Cage cage, const std::optional<Distance>& distance);
 
-/// For a cage some of whose faces lack texture coordinates: throws Failure::input when one of `maps`, which need them,
-/// is not empty, else warns.
+/// Checks a cage some of whose faces lack texture coordinates. Throws Failure::input when one of `maps`, which need
+/// them, is not empty, else warns.
 void checkTexCoords(const Cage& cage, const std::vector<std::string>& maps, const Warn& warn);
 
 // --- motion -------------------------------------------------------------------------------------------------------
@@ -146,7 +146,7 @@ Model makeModel(Device& device, const LoadedObject& object);
 /// Throws Failure::internal for polygons that are drawn themselves.
 SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object);
 
-/// Where heights stretch with a cage that load() has posed, they are the device's to compute: poses the model there.
+/// Poses the model on the device, which computes how heights stretch, where load() has posed the cage on the host.
 /// Does nothing where heights are absolute or the cage is at rest.
 void stretchHeights(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space);
 
