@@ -40,6 +40,7 @@ EdgeRates computeRates(Device& device, const SurfaceModel& model, const LoadedOb
 
 /// Whatever made the mesh is freed before the mesh is written.
 Exported dice(const ExportArgs& args) {
+    // The object on the host, then on the device.
     Progress progress("dicing", 4, args.output.progress);
     const ObjectDesc& desc = args.scene.object;
     const LoadedObject object = load(desc, CageState::posed, makeWarn(args.output.isQuiet));

@@ -241,6 +241,7 @@ Picture Renderer::render(std::span<const Instance> instances, const RenderOption
 }
 
 std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift) {
+    // The instance alone, and a target that adds signed numbers.
     Parts& parts = *parts_;
     Parts::Frame frame = parts.prepare(std::span(&instance, 1), options);
     frame.drawn.front().inputs.view.crackShift = shift;
@@ -256,6 +257,8 @@ std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOption
                                                   .bytes = std::uint64_t(width) * height * 2,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                   .memory = MemoryUse::readback});
+
+    // One pass, copied to the host.
     parts.device.submitAndWait([&](VkCommandBuffer commands) {
         parts.writeInputs(commands, frame);
         Rendering rendering = parts.begin(commands, frame, {{attachment(sums)}, {}, parts.size()});
@@ -268,7 +271,7 @@ std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOption
         barrier(commands);
     });
     const auto* halves = static_cast<const std::uint16_t*>(read.mapped);
-    // A sum that is not 0; minus zero is zero.
+    // Pixels whose sum is not 0; minus zero is zero.
     return std::uint64_t(std::count_if(halves, halves + std::size_t(width) * height,
                                        [](std::uint16_t half) { return (half & 0x7fffu) != 0; }));
 }

@@ -148,6 +148,8 @@ CapturedMesh Capture::grids() {
     const Pipeline& pipeline =
         pipelineOf({shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "grid_capture.vert", model.isTriangles())},
                    VK_PRIMITIVE_TOPOLOGY_POINT_LIST);
+
+    // Points of all grids, batch after batch, written by the vertex shader itself.
     std::uint64_t vertexCount = 0;
     for (const DrawBatch& b : plan.batches) vertexCount += std::uint64_t(b.columns + 1) * (b.rows + 1) * b.faceCount;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -162,6 +164,8 @@ CapturedMesh Capture::grids() {
             first += size * b.faceCount;
         }
     });
+
+    // Triangles by the indices that the draws of this path use.
     CapturedMesh mesh = readBack(target, vertexCount);
     std::uint32_t first = 0;
     for (const DrawBatch& b : plan.batches) {
