@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/object_options.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/picture_options.h"
 #include "app/render_process.h"

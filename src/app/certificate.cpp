@@ -32,7 +32,7 @@ json makeLocationJson(const SurfaceLocation& location) {
 
 json makePathJson(const PathReport& report, const Coordinates& coordinates) {
     const Watertightness& w = report.triangles;
-    const dvec3 worst = coordinates.toWorld(w.worstPlace);
+    const dvec3 worst = coordinates.toWorld(w.worstLocation);
     return {{"path", report.path},
             {"watertight", w.isWatertight() && report.crackPixels.value_or(0) == 0},
             {"triangles", w.triangles},
