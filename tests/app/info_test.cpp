@@ -76,7 +76,7 @@ TEST(Info, ofMapsShowsTheRangeOfEveryChannel) {
     EXPECT_EQ(list[1].at("default_mid"), 0.5);
 
     const std::string text = relief({"info", folder / "two.exr"}).out;
-    EXPECT_TRUE(contains(text, "\n  default mid                  0\n")) << text;
+    EXPECT_TRUE(contains(text, "\n  default mid                      0\n")) << text;
     EXPECT_TRUE(contains(text, "((-0.25, 0.5), (1, 3))")) << text;
 }
 
