@@ -41,10 +41,4 @@ uvec2 divided(uint x, uint d) {
 layout(constant_id = kIdIsCommon) const bool kIsCommon = false;
 
 uvec2 halvesOf(uint packed) { return uvec2(packed & 0xffffu, packed >> 16); }
-
-void storeVertex(uint vertex, vec3 q, float h, vec3 normal, vec2 st, bool hasTexCoords) {
-    inputs.targets.dicedVertices.at[2u * vertex] = vec4(q, h);
-    inputs.targets.dicedVertices.at[2u * vertex + 1u] = vec4(normal, 0.0);
-    if (hasTexCoords) inputs.targets.dicedTexCoords.at[vertex] = st;
-}
 #endif

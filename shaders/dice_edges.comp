@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "dice.glsl"
 #include "displaced.glsl"
+#include "dice_store.glsl"
 
 // The samples on corners and edges, one invocation per vertex, each evaluated at its owner.
 layout(local_size_x_id = kIdGroupSize) in;
@@ -32,5 +33,5 @@ void main() {
                                 segmentsOf(rate, inputs.rates.isFractional), rate);
     }
     DisplacedSample s = displaced(run.incidence.face, incidencePoint(run.incidence, location.t), location);
-    storeVertex(vertex, s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
+    storeVertex(vertex, s);
 }

@@ -11,6 +11,7 @@ layout(local_size_x_id = kIdGroupSize) in;
 #else
 #include "dice_tile.glsl"
 #endif
+#include "dice_store.glsl"
 
 vec2 insidePoint(InsideTile tile, uvec2 ij) {
     uvec2 segments = halvesOf(tile.segments);
@@ -43,7 +44,7 @@ void main() {
         if (ij.x + ij.y >= n) continue;
         vec2 uv = insidePoint(tile, ij);
         DisplacedSample s = displaced(tile.face, uv, insideLocation(tile.face, uv));
-        storeVertex(tile.firstVertex + insideIndex(ij, n), s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
+        storeVertex(tile.firstVertex + insideIndex(ij, n), s);
     }
 }
 
@@ -63,8 +64,7 @@ void main() {
         DisplacedSample s = displacedInLeaf(patchPoints, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
                                              faceLevel(tile.face, uv));
         uint row = halvesOf(tile.segments).x - 1u;
-        storeVertex(tile.firstVertex + (ij.y - 1u) * row + ij.x - 1u, s.q, s.h, s.normal, s.st,
-                    kHasTexCoords && kWantsTexCoords);
+        storeVertex(tile.firstVertex + (ij.y - 1u) * row + ij.x - 1u, s);
     }
 }
 #endif

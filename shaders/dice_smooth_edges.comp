@@ -11,6 +11,7 @@ layout(local_size_x_id = kIdGroupSize) in;
 void main() {} // all runs are dice_edges.comp's
 #else
 #include "dice_tile.glsl"
+#include "dice_store.glsl"
 
 void main() {
     uint index = push.first + gl_WorkGroupID.x, edge = fetchRun(index).element;
@@ -26,7 +27,7 @@ void main() {
         float t = sampleParameter(k, n, rate);
         vec2 uv = incidencePoint(record.owner, t);
         DisplacedSample s = displacedInLeaf(patchPoints, Leaf(patchIndex, uv, 1.0), uv, mix(low, high, t));
-        storeVertex(firstVertex + k - 1u, s.q, s.h, s.normal, s.st, kHasTexCoords && kWantsTexCoords);
+        storeVertex(firstVertex + k - 1u, s);
     }
 }
 #endif

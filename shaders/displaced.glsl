@@ -19,18 +19,37 @@ vec3 unitOr(vec3 m, vec3 n) {
     return square > 0.0 && !isinf(square) ? normalize(m) : n;
 }
 
+// (h_u, h_v)
+vec2 heightDerivatives(SurfacePoint point, HeightSample height) {
+    vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
+    if (kStretches) dh += height.h * point.logStretch;
+    return dh;
+}
+
 // The normal asked for by --normal, not yet unit.
 vec3 displacedNormal(SurfacePoint point, HeightSample height) {
     LimitFrame f = point.frame;
     vec3 n = point.n;
     float area = point.area;
     if (kNormal == kNormalLimit || !kHasHeight || point.isStraight) return n;
-    vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
-    if (kStretches) dh += height.h * point.logStretch;
+    vec2 dh = heightDerivatives(point, height);
     if (kNormal == kNormalFirstOrder) return firstOrderNormal(n, f.pu, f.pv, dh);
     vec3 nu = normalDerivative(n, area, f.pu, f.pv, f.puu, f.puv);
     vec3 nv = normalDerivative(n, area, f.pu, f.pv, f.puv, f.pvv);
     return cross(displacedTangent(f.pu, n, nu, height.h, dh.x), displacedTangent(f.pv, n, nv, height.h, dh.y));
+}
+
+// p_u and p_v become q_u and q_v; with first-order normals those of a surface whose n does not change.
+void displaceTangents(SurfacePoint point, HeightSample height, inout vec3 pu, inout vec3 pv) {
+    LimitFrame f = point.frame;
+    vec2 dh = heightDerivatives(point, height);
+    vec3 nu = vec3(0), nv = vec3(0);
+    if (kNormal == kNormalFull) {
+        nu = normalDerivative(point.n, point.area, f.pu, f.pv, f.puu, f.puv);
+        nv = normalDerivative(point.n, point.area, f.pu, f.pv, f.puv, f.pvv);
+    }
+    pu = displacedTangent(f.pu, point.n, nu, height.h, dh.x);
+    pv = displacedTangent(f.pv, point.n, nv, height.h, dh.y);
 }
 
 // --- the displaced surface ------------------------------------------------------------------------------------------
@@ -45,6 +64,8 @@ struct DisplacedSample {
     vec3 n;          // unit limit normal of the frame
     vec2 gradient;   // (h_s, h_t)
     mat2 jacobian;   // of the texture coordinates
+    vec4 tangentS;   // kHasTangents: as in varyings.glsl, in the model's own space
+    vec4 tangentT;
 };
 
 // The drawn face's texture coordinates where the point is evaluated at another face.
@@ -54,9 +75,24 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     return patchFrame(fetchPatch(leaf.patchIndex, inputs.model.pointsNow).texture, leaf.uv).p.xy;
 }
 
+// Derivatives of the drawn surface by s and t: x_s = (x_u t_v - x_v t_u) / det J and x_t = (x_v s_u - x_u s_v) / det J. They
+// vanish where texture coordinates or the surface have no two directions: nothing bends the normal there.
+void addTangents(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
+    s.tangentS = s.tangentT = vec4(0);
+    mat2 J = point.tex.jacobian;
+    float det = determinant(J);
+    if (det == 0.0 || point.isStraight) return;
+    bool hasSlopes = kHasHeight && kNormal != kNormalLimit;
+    vec3 xu = point.frame.pu, xv = point.frame.pv;
+    if (hasSlopes) displaceTangents(point, height, xu, xv);
+    s.tangentS = vec4((xu * J[1].y - xv * J[0].y) / det, hasSlopes ? height.gradient.x : 0.0) / point.stretch;
+    s.tangentT = vec4((xv * J[0].x - xu * J[1].x) / det, hasSlopes ? height.gradient.y : 0.0) / point.stretch;
+}
+
 // What belongs to the face that a point is seen from.
 void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
     s.normal = displacedNormal(point, height);
+    if (kHasTangents) addTangents(s, point, height);
     s.st = point.tex.st;
     s.frame = point.frame;
     s.n = point.n;
@@ -114,8 +150,15 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
     if (count > 1u) direction = dot(direction, direction) > 1e-6 ? normalize(direction) : ownersNormal;
     precise vec3 q = displacedPoint(s.p, direction, s.h);
     s.q = q;
+    if (kHasTangents && !isOwn) {
+        // Tangents are those of the drawn face's texture coordinates, which may differ from the owner's.
+        Leaf leaf = findLeaf(face, faceUV);
+        SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex, pose), leaf, faceUV, true);
+        addAttributes(s, point, heightAt(point, location.level));
+    } else if (kWantsTexCoords && !isOwn) {
+        s.st = ownTexCoords(face, faceUV);
+    }
     s.normal = unitOr(s.normal, s.n);
-    if (kWantsTexCoords && !isOwn) s.st = ownTexCoords(face, faceUV);
     return s;
 }
 

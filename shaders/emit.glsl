@@ -4,7 +4,7 @@
 #include "project.glsl"
 
 #ifdef RELIEF_CAPTURES_STREAM
-layout(xfb_buffer = 0, xfb_stride = 16, xfb_offset = 0, location = 5) out vec4 captured; // position, 1 on a boundary
+layout(xfb_buffer = 0, xfb_stride = 16, xfb_offset = 0, location = 7) out vec4 captured; // position, 1 on a boundary
 #endif
 
 // Returns what captures hold of the vertex: its position, and 1 on a boundary.
@@ -15,6 +15,8 @@ vec4 emitVertex(uint face, vec2 uv, SampleLocation location, uint rate) {
     vNormal = worldNormal(s.normal);
     vTexCoord = vec4(s.st, uv);
     vHeight = s.h;
+    vTangentS = kHasTangents ? worldTangent(s.tangentS) : vec4(0);
+    vTangentT = kHasTangents ? worldTangent(s.tangentT) : vec4(0);
     vFace = kPass == kPassLayers ? face : cageFaceOf(face);
     vRate = rate;
     vec4 vertex = vec4(s.q, (location.flags & kOnBoundary) != 0u ? 1.0 : 0.0);

@@ -16,6 +16,7 @@ layout(set = 0, binding = kBindInputs, scalar) uniform InputBlock { PassInputs i
 layout(constant_id = kIdHasMips) const bool kHasMips = false;
 layout(constant_id = kIdStretches) const bool kStretches = false; // heights grow with the surface since the rest pose
 layout(constant_id = kIdHasWideIndices) const bool kHasWideIndices = false;
+layout(constant_id = kIdHasTangents) const bool kHasTangents = false;
 layout(constant_id = kIdPass) const uint kPass = kPassSurface;
 
 RELIEF_TABLE(kBindRecords, uvec4, recordAt)

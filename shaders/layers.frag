@@ -3,6 +3,7 @@
 #include "inputs.glsl"
 #define RELIEF_VARYING in
 #include "varyings.glsl"
+#include "detail.glsl"
 #include "octahedral.glsl"
 
 // Which point of the surface a pixel sees at its centre: what layers.comp reads.
@@ -13,7 +14,8 @@ layout(location = 2) out uint instance;           // kHasInstances
 layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
 
 void main() {
-    normalAndTexCoords = vec4(octahedral(gl_FrontFacing ? vNormal : -vNormal), vTexCoord.xy);
+    vec3 n = fragmentNormal();
+    normalAndTexCoords = vec4(octahedral(gl_FrontFacing ? n : -n), vTexCoord.xy);
     surfacePoint = vec4(vTexCoord.zw, vHeight, float(vFace) + 1.0);
     if (kHasInstances) instance = inputs.view.instance;
 }

@@ -28,7 +28,7 @@ layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false; // s
 
 // Where this is false all that evaluates texture coordinates folds away when a pipeline is made. A function, for Mesa 22.3's
 // CPU driver makes no pipeline of a constant that is computed from specialization constants.
-bool readsTexCoords() { return kHasTexCoords && (kHasHeight || kWantsTexCoords); }
+bool readsTexCoords() { return kHasTexCoords && (kHasHeight || kWantsTexCoords || kHasTangents); }
 
 layout(constant_id = kIdGenericBasis) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
 

@@ -3,6 +3,9 @@ layout(constant_id = kIdIsPlaced) const bool kIsPlaced = false;
 
 vec3 worldNormal(vec3 normal) { return kIsPlaced ? inputs.view.normalToWorld * normal : normal; }
 
+// A tangent with a slope in w.
+vec4 worldTangent(vec4 tangent) { return vec4(worldNormal(tangent.xyz), tangent.w); }
+
 // The crack picture: vertices move aside when the parity of their position's bits is odd. Two samples that are meant to
 // be one and differ in the last bit then separate visibly.
 vec3 splitByParity(vec3 q) {

@@ -3,6 +3,7 @@
 #include "inputs.glsl"
 #define RELIEF_VARYING in
 #include "varyings.glsl"
+#include "detail.glsl"
 #include "octahedral.glsl"
 #include "rounding.glsl"
 
@@ -19,7 +20,8 @@ layout(location = 1) out vec4 color;  // albedo, or with --show what is seen: se
 layout(location = 2) out uint instance; // kHasInstances: which one, for its material
 
 void main() {
-    vec3 n = gl_FrontFacing || kShow == kShowNormal ? vNormal : -vNormal;
+    vec3 n = fragmentNormal();
+    if (!gl_FrontFacing && kShow != kShowNormal) n = -n;
     normal = roundToHalf(octahedral(n));
     color = vec4(storedColor(techniqueColor(), kShow == kShowShaded), 1.0);
     if (kHasInstances) instance = inputs.view.instance;

@@ -92,7 +92,7 @@ PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsText
 
 SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
     bool hasTexture = wantsTexture && readsTexCoords();
-    bool hasRest = kStretches && wantsTexture && kHasHeight;
+    bool hasRest = kStretches && wantsTexture && (kHasHeight || kHasTangents);
     PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
     SurfacePoint point;
     point.frame = frames.surface;

@@ -29,7 +29,10 @@ RELIEF_CONSTANT uint kIdIsMesh = 16u;       // layers: the model is a triangle m
 RELIEF_CONSTANT uint kIdIsPlaced = 17u;     // the model is turned or scaled in the world
 RELIEF_CONSTANT uint kIdHasInstances = 18u; // samples carry the number of their instance
 RELIEF_CONSTANT uint kIdEntries = 19u;      // posing: entries per stencil block, or 0
-RELIEF_CONSTANT uint kIdCount = 20u;
+RELIEF_CONSTANT uint kIdHasTangents = 20u;  // vertices carry tangents and slopes, see varyings.glsl
+RELIEF_CONSTANT uint kIdHasSlopes = 21u;    // normals are bent by the slopes of heights, per fragment
+RELIEF_CONSTANT uint kIdNormalMap = 22u;    // kNormalMap...
+RELIEF_CONSTANT uint kIdCount = 23u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -50,6 +53,11 @@ RELIEF_CONSTANT uint kPassLayers = 4u;  // what layers.comp reads
 RELIEF_CONSTANT uint kNormalLimit = 0u;
 RELIEF_CONSTANT uint kNormalFirstOrder = 1u;
 RELIEF_CONSTANT uint kNormalFull = 2u;
+
+// What the texels of a normal map are relative to (--normal-space).
+RELIEF_CONSTANT uint kNormalMapNone = 0u;
+RELIEF_CONSTANT uint kNormalMapTangent = 1u;
+RELIEF_CONSTANT uint kNormalMapObject = 2u;
 
 #ifdef __cplusplus
 } // namespace relief

@@ -15,8 +15,9 @@ using std::min;
 #define RELIEF_PRECISE precise
 #endif
 
-// Segments of an edge by its rate. With --spacing fractional a rate need not be whole: the edge has the next even number of
-// segments, all of length 1/rate but the two in its middle, which are what is left. Nothing pops while the rate grows.
+// Segments of an edge by its rate. With --spacing fractional a rate need not be whole: the edge has the next even
+// number of segments, all of length 1/rate but the two in its middle, which are what is left. Nothing pops while the
+// rate grows.
 RELIEF_SHARED_FUNCTION uint segmentsOf(float rate, uint isFractional) {
     return isFractional != 0u ? 2u * uint(ceil(0.5f * rate)) : uint(rate);
 }

@@ -9,20 +9,20 @@ namespace relief {
 #endif
 
 struct SampleQuery {
-    uint face;         // ptex face
+    uint face; // ptex face
     vec2 uv;
 };
 
 // All of it evaluated at the face itself, in the shaders' own arithmetic.
 struct SampleResult {
-    vec3 p, pu, pv, puu, puv, pvv;  // limit frame by face coordinates
-    vec3 n;                         // unit limit normal
-    vec2 st;                        // texture coordinates
-    vec2 stu, stv;                  // their derivatives by u and v
+    vec3 p, pu, pv, puu, puv, pvv; // limit frame by face coordinates
+    vec3 n;                        // unit limit normal
+    vec2 st;                       // texture coordinates
+    vec2 stu, stv;                 // their derivatives by u and v
     float h;
-    vec2 gradient;                  // (h_s, h_t)
-    vec3 q;                         // p + h n
-    vec3 m;                         // unit normal of the displaced surface, as --normal asks
+    vec2 gradient; // (h_s, h_t)
+    vec3 q;        // p + h n
+    vec3 m;        // unit normal of the displaced surface, as --normal asks
 };
 
 #ifdef __cplusplus

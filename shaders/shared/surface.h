@@ -90,11 +90,11 @@ struct Incidence {
 // Every edge has one owner, the incident face with the lowest index; its direction is the owner's (start < end).
 struct Edge {
     Incidence owner;
-    uint corners[2]; // at t = 0 and t = 1
+    uint corners[2];     // at t = 0 and t = 1
     uint firstIncidence; // into Surface::incidences: all incident faces in index order,
     uint incidenceCount; // or 0 where the owner's normal is the surface's (smooth edges)
-    uint partner;    // the other half of a split cage edge, or the edge itself
-    uint flags;      // kOn...
+    uint partner;        // the other half of a split cage edge, or the edge itself
+    uint flags;          // kOn...
 };
 
 struct Corner {

@@ -49,12 +49,13 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
         if (wantsMotion(args.picture))
             fail(Failure::usage, "{}: the layer of motion is not known for plain polygons; name their --scheme",
                  desc.cage);
-        polygons_.emplace(object.cage, *object.animation);
+        polygons_.emplace(object.cage, *object.animation, needsTangents(desc));
     }
     frames_ = listFrames(args, object.animation.get());
     placeScene();
     if (polygons_) object.dense = polygons_->makeMesh(toSeconds(frames_.front(), desc.motion));
     makeModel();
+    checkFilter(args.picture, *device_, warn);
     renderer_ =
         std::make_unique<Renderer>(*device_, RendererDesc{.width = args.scene.size.x, .height = args.scene.size.y});
 }
@@ -88,6 +89,7 @@ void FrameMaker::makeModel() {
     object.heightEncoding = {};
     object.dense.reset();
     object.albedo.reset();
+    object.normalMap.reset();
     loaded_.environment.reset();
     malloc_trim(0);
 }
@@ -122,7 +124,9 @@ Pose FrameMaker::poseAt(int frame) const {
 void FrameMaker::posePolygons(int frame, DrawnFrame& drawn) {
     const double start = secondsNow();
     const DenseMesh mesh = polygons_->makeMesh(toSeconds(frame, args_.scene.object.motion));
-    drawn.uploadedBytes = meshPoser_->upload(mesh.positions, mesh.normals);
+    std::optional<Tangents> tangents;
+    if (needsTangents(args_.scene.object)) tangents = computeTangents(mesh);
+    drawn.uploadedBytes = meshPoser_->upload(mesh, tangents ? &*tangents : nullptr);
     drawn.poseMs = 1e3 * (secondsNow() - start);
     polygonBounds_ = computeBounds(mesh.positions);
 }

@@ -43,6 +43,31 @@ void addMaterial(CLI::App& app, MaterialDesc& material) {
                ->check(numberIn(0.05, 1)));
 }
 
+void addDetail(CLI::App& app, ObjectDesc& object) {
+    listIn("height", "HOW", addEnum(app, "--detail", object.height.detail, kDetails, "what heights do"));
+    const char* group = "shading";
+    NormalMapDesc& normalMap = object.material.normalMap;
+    CLI::Option* map = app.add_option("--normal-map", normalMap.path, "normal map: .png .tif .exr .jpg");
+    listIn(group, "MAP", map);
+    listIn(group, "SPACE",
+           addEnum(app, "--normal-space", normalMap.space, kNormalSpaces, "what normals are relative to")->needs(map));
+    listIn(group, "Y",
+           addEnum(app, "--normal-y", normalMap.y, kNormalYs, "where green points in tangent space")->needs(map));
+}
+
+void addFilter(CLI::App& app, PictureArgs& picture) {
+    const char* group = "shading";
+    CLI::Option* filter =
+        addEnum(app, "--filter", picture.filter, kFilters, "how color, normal and bump maps are looked up");
+    listIn(group, "FILTER", filter);
+    listIn(group, "N",
+           app.add_option("--anisotropy", picture.anisotropy,
+                          fmt::format("most lookups per pixel of the anisotropic filter, 2..16 (default: {})",
+                                      picture.anisotropy))
+               ->check(numberIn(2, 16))
+               ->needs(filter));
+}
+
 void addLighting(CLI::App& app, LightingDesc& lighting) {
     const char* group = "shading";
     listIn(group, "HDR",
@@ -146,7 +171,9 @@ void addPicture(CLI::App& app, SceneDesc& scene, PictureArgs& picture) {
     addPath(app, picture.triangles.path, "tessellation, or grid where the device has no tessellation shaders");
     addTriangles(app, picture.triangles.options);
     addCamera(app, scene.camera, scene.size);
+    addDetail(app, scene.object);
     addMaterial(app, scene.object.material);
+    addFilter(app, picture);
     addLighting(app, scene.lighting);
     listIn("shading", "WHAT", addEnum(app, "--show", picture.show, kShows, "what the picture shows"));
     addLayers(app, picture.layers);
@@ -166,9 +193,20 @@ RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene
     RenderOptions options{toTriangleOptions(picture.triangles, device)};
     options.show = picture.show;
     options.layers = picture.layers;
+    options.filter = picture.filter;
+    options.anisotropy = picture.anisotropy;
     options.lighting = makeLighting(scene.lighting, scene.camera.azimuth, nullptr);
     options.unit = object.coordinates().unit;
     return options;
+}
+
+void checkFilter(const PictureArgs& args, const Device& device, const Warn& warn) {
+    const DeviceTraits& traits = device.traits();
+    if (args.filter != Filter::anisotropic || args.anisotropy <= traits.maxAnisotropy) return;
+    if (traits.maxAnisotropy <= 1)
+        fail(Failure::device, "{} has no anisotropic filter; --filter mipmap is the nearest one", traits.name);
+    warn(fmt::format("{} filters with {} lookups at most, fewer than the {} of --anisotropy", traits.name,
+                     traits.maxAnisotropy, args.anisotropy));
 }
 
 void checkPicturePath(const std::string& path, const PictureArgs& args) {

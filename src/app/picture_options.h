@@ -16,6 +16,8 @@ struct PictureArgs {
     TriangleArgs triangles;
     Show show = RenderOptions().show;
     std::vector<Layer> layers;
+    Filter filter = RenderOptions().filter;
+    float anisotropy = RenderOptions().anisotropy;
     Finish finish;
     std::string device; ///< part of its name, or empty
 };
@@ -36,6 +38,9 @@ TriangleOptions toTriangleOptions(const TriangleArgs& args, const Device& device
 /// What a picture shows of a loaded scene. The verb sets camera, bounds, and the environment of the scene.
 RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene, const LoadedObject& object,
                               const Device& device);
+
+/// Warns of more anisotropy than the device has; throws Failure::device where it has none.
+void checkFilter(const PictureArgs& args, const Device& device, const Warn& warn);
 
 /// Throws Failure::usage unless `path` is a picture's, and an .exr where layers are asked for.
 void checkPicturePath(const std::string& path, const PictureArgs& args);

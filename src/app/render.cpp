@@ -86,6 +86,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     // What the picture shows, and the model of it.
     const std::unique_ptr<Device> opened = opening.get();
     Device& device = *opened;
+    checkFilter(args.picture, device, warn);
     const Coordinates coordinates = loaded.object.coordinates();
     RenderOptions options = toRenderOptions(args.picture, args.scene, loaded.object, device);
     const std::optional<GpuEnvironment> environment = makeEnvironment(device, loaded);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 
 #include <OpenImageIO/imageio.h>
@@ -15,6 +14,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "base/picture_facts.h"
 #include "base/tiff_directory.h"
 
 namespace relief {
@@ -93,49 +93,10 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& path, const Image
 
 // --- files that were cut: libjpeg fills them up with grey and calls it success, libpng prints to stderr ------------
 
-/// True when the chunks (length, type, data, checksum) run to the end chunk.
-bool pngHasEnd(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    file.seekg(8);
-    std::array<unsigned char, 8> head{};
-    while (file.read(reinterpret_cast<char*>(head.data()), head.size())) {
-        const std::uint32_t length = std::uint32_t(head[0]) << 24 | head[1] << 16 | head[2] << 8 | head[3];
-        const bool isEnd = std::equal(head.begin() + 4, head.end(), "IEND");
-        file.seekg(std::streamoff(length) + (isEnd ? 3 : 4), std::ios::cur);
-        if (isEnd) return file.get() != std::ifstream::traits_type::eof(); // the last byte of its checksum
-    }
-    return false;
-}
-
-constexpr int kStartOfImage = 0xd8, kEndOfImage = 0xd9, kFirstRestart = 0xd0;
-
-bool standsAlone(int marker) { return marker == 0x01 || (marker >= kFirstRestart && marker <= kStartOfImage); }
-
-/// True when the picture's own end marker is there.
-bool jpegHasEnd(const std::string& path) {
-    const std::string bytes = readFile(path);
-    const auto byteAt = [&](std::size_t i) { return int(static_cast<unsigned char>(bytes[i])); };
-    // Segments carry their length (a thumbnail inside one has an end marker too, which must not count); between them
-    // lies coded data, where 0xff is followed by 0 unless it begins a marker.
-    for (std::size_t i = 0; i + 1 < bytes.size();) {
-        const int marker = byteAt(i + 1);
-        if (byteAt(i) != 0xff || marker == 0 || marker == 0xff) {
-            ++i;
-            continue;
-        }
-        if (marker == kEndOfImage) return true;
-        i += 2;
-        if (standsAlone(marker)) continue;
-        if (i + 1 >= bytes.size()) return false;
-        i += std::size_t(byteAt(i)) << 8 | std::size_t(byteAt(i + 1));
-    }
-    return false;
-}
-
 /// Throws for a file that was cut.
 void checkEnd(const std::string& path, const std::string& format) {
-    const bool isWhole = format == "png"    ? pngHasEnd(path)
-                         : format == "jpeg" ? jpegHasEnd(path)
+    const bool isWhole = format == "png"    ? readPngFacts(PictureBytes(path)).isWhole
+                         : format == "jpeg" ? jpegHasEnd(PictureBytes(path))
                          : format == "tiff" ? readTiffFacts(path).isWhole
                                             : true;
     if (!isWhole) fail(Failure::input, "{}: damaged {} picture: the file ends before the picture does", path, format);
@@ -333,6 +294,13 @@ std::vector<ImagePart> partsOf(const OpenImage& image) {
     return parts;
 }
 
+/// The color profile that a TIFF or JPEG carries.
+std::string profileOf(const OIIO::ImageSpec& spec) {
+    if (spec.find_attribute("ICCProfile") == nullptr) return "";
+    return fmt::format("ICC profile {}",
+                       std::string(spec.get_string_attribute("ICCProfile:profile_description", "without a name")));
+}
+
 } // namespace
 
 ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
@@ -349,6 +317,7 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
             .isFloat = spec.format.is_floating_point(),
             .isSigned = isSignedInteger(spec.format),
             .noData = image.format == "tiff" ? readTiffFacts(path).noData : std::nullopt,
+            .colorTag = image.format == "png" ? readPngFacts(PictureBytes(path)).colorTag : profileOf(spec),
             .channelNames = spec.channelnames,
             .parts = std::move(parts)};
 }

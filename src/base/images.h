@@ -35,6 +35,7 @@ struct ImageInfo {
     bool isFloat = false;         ///< half, float or double samples: heights in units, not 0..1
     bool isSigned = false;        ///< signed integers: texels are the stored numbers, not 0..1
     std::optional<double> noData; ///< the stored number that stands for a void (GDAL_NODATA of a TIFF); may be NaN
+    std::string colorTag;         ///< what in the file says that its numbers are colors, for messages: "sRGB"; else ""
     std::vector<std::string> channelNames;
     std::vector<ImagePart> parts; ///< at least the first one; only pages of its size
 

@@ -1,5 +1,5 @@
-// Height maps and the displaced surface: loading, convention, encoding for the device, lookup, and the double-precision
-// reference of the displaced surface.
+// Height maps, normal maps and the displaced surface: loading, convention, encoding for the device, lookup, and the
+// double-precision reference of the displaced surface.
 #pragma once
 
 #include <array>
@@ -9,15 +9,13 @@
 
 #include "base/base.h"
 #include "displacement/height_census.h"
+#include "displacement/normal_map.h"
 #include "shared/maps.h"
 #include "surface/surface.h"
 
 namespace relief {
 
 // --- height maps --------------------------------------------------------------------------------------------------
-
-/// What a lookup outside [0,1] finds: the map again, or its border.
-enum class Wrap { repeat, clamp };
 
 /// Values and what they mean: h(s,t) = scale * (texel - mid), bilinear between texel centres. t points up, row 0 is the
 /// top of the picture.
@@ -47,6 +45,16 @@ struct HeightSample {
 /// Looks the map up in double precision: h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel, h_t likewise (Marschner,
 /// CS 569 notes).
 HeightSample sampleHeight(const HeightMap& map, const dvec2& st);
+
+/// The slopes of a height map at each of its texels and those of its mips, down to a single texel: central differences
+/// over one texel of the level, so that bilinear lookups of them are those of sampleHeight().
+struct SlopeMap {
+    int width = 0, height = 0;
+    std::uint32_t levelCount = 0;
+    float unit = 1;                    ///< the largest of level 0, cage units per unit of s and t
+    std::vector<std::uint32_t> texels; ///< h_s / unit and h_t / unit as two halves, level after level, rows from the top
+};
+SlopeMap computeSlopes(const HeightMap& map);
 
 // --- encodings ----------------------------------------------------------------------------------------------------
 

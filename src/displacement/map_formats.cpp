@@ -6,6 +6,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "displacement/mips.h"
 #include "displacement/voids.h"
 
 namespace relief {
@@ -90,27 +91,6 @@ float unpacked(const MapEncoding& encoding, std::uint32_t bits) {
     return encoding.base + encoding.range * (float(bits) / stepsOf(encoding.format));
 }
 
-struct Level {
-    int width = 0, height = 0;
-    std::span<const float> texels;
-};
-
-/// The texels of the level after this one.
-std::vector<float> halved(const Level& fine) {
-    const int width = std::max(fine.width / 2, 1), height = std::max(fine.height / 2, 1);
-    const auto at = [&](int x, int y) {
-        return fine.texels[std::size_t(std::min(y, fine.height - 1)) * std::size_t(fine.width) +
-                           std::size_t(std::min(x, fine.width - 1))];
-    };
-    std::vector<float> coarse;
-    coarse.reserve(std::size_t(width) * std::size_t(height));
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            coarse.push_back(
-                0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) + at(2 * x + 1, 2 * y + 1)));
-    return coarse;
-}
-
 /// Values as shares 0..1 of the encoding's range, and back.
 std::vector<float> toUnit(const MapEncoding& encoding, std::span<const float> texels) {
     std::vector<float> unit(texels.begin(), texels.end());
@@ -136,7 +116,7 @@ std::uint64_t levelBytes(MapFormat format, std::uint64_t width, std::uint64_t he
 }
 
 /// Appends a level; returns the largest difference between its texels and what a reader of the words finds.
-float appendBlocks(MapWords& to, const MapEncoding& encoding, const Level& level) {
+float appendBlocks(MapWords& to, const MapEncoding& encoding, const MapLevel& level) {
     const std::size_t first = to.words.size();
     const std::vector<std::uint8_t> blocks =
         first == 0 ? encoding.blocks : blocksOf(toUnit(encoding, level.texels), level.width, level.height);
@@ -146,7 +126,7 @@ float appendBlocks(MapWords& to, const MapEncoding& encoding, const Level& level
     return largestDifference(level.texels, fromUnit(encoding, valuesOf(blocks, level.width, level.height)));
 }
 
-float appendTexels(MapWords& to, const MapEncoding& encoding, const Level& level) {
+float appendTexels(MapWords& to, const MapEncoding& encoding, const MapLevel& level) {
     const std::size_t first = to.words.size(), bits = bitsOf(encoding.format), perWord = 32 / bits;
     to.words.resize(first + (level.texels.size() + perWord - 1) / perWord, 0);
     float most = 0;
@@ -232,12 +212,12 @@ MapWords toWords(const HeightMap& decoded, const MapEncoding& encoding) {
     }
 
     words.words.reserve(mapBytes(encoding.format, decoded.width, decoded.height) / 4);
-    const auto append = [&](const Level& level) {
+    const auto append = [&](const MapLevel& level) {
         words.firsts.push_back(std::uint32_t(words.words.size()));
         return encoding.format == MapFormat::bc4 ? appendBlocks(words, encoding, level)
                                                  : appendTexels(words, encoding, level);
     };
-    Level level{decoded.width, decoded.height, decoded.texels};
+    MapLevel level{decoded.width, decoded.height, decoded.texels};
     append(level);
     std::vector<float> texels; // of the level, which mips are made of before they are rounded
     while ((level.width > 1 || level.height > 1) && words.firsts.size() < kMostMapLevels) {

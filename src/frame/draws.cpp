@@ -49,13 +49,16 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
 }
 
 void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats) {
+    const ShaderConstants wants = constantsOf(frame, drawn, DrawPass::surface);
     drawn.diced = dicer.dice(*drawn.surface, drawn.rates,
                              {.normal = frame.options.normal,
-                              .wantsTexCoords = constantsOf(frame, drawn, DrawPass::surface).wantsTexCoords,
+                              .wantsTexCoords = wants.wantsTexCoords,
+                              .wantsTangents = wants.hasTangents,
                               .memory = frame.options.memory});
     const DicedMesh& mesh = drawn.diced;
     drawn.bindings[kBindMesh] = mesh.vertices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
+    drawn.bindings[kBindMeshTangents] = mesh.tangents.binding();
     stats.triangleCount += mesh.triangleCount;
     stats.vertexCount += mesh.sampleCount;
     stats.faceCount += drawn.surface->faces.size();

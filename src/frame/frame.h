@@ -107,6 +107,14 @@ enum class Layer {
     motion, ///< pixels since the frame before, x right and y down
 };
 
+/// How colour maps, normal maps and slopes of heights are looked up for a pixel.
+enum class Filter {
+    nearest,     ///< the texel at its centre
+    bilinear,    ///< between four texels around its centre
+    mipmap,      ///< between the two mip levels whose texels are about as large as it
+    anisotropic, ///< several such lookups along the longest axis of what it covers
+};
+
 enum class Show { shaded, normal, height, rate, faces, wireframe };
 
 struct RenderOptions : TriangleOptions {
@@ -114,6 +122,8 @@ struct RenderOptions : TriangleOptions {
     Camera camera;
     Lighting lighting;
     Bounds bounds; ///< of all instances in the world: what the shadow map covers
+    Filter filter = Filter::mipmap;
+    float anisotropy = 8; ///< anisotropic: most lookups per pixel, at most DeviceTraits::maxAnisotropy
     std::vector<Layer> layers;
     double unit = 1; ///< cage units per unit of the model: layers hold depths and heights in cage units
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves

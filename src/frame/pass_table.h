@@ -31,6 +31,7 @@ struct DrawPassRow {
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
     bool marksInstances = false; ///< where there are several: one more target of kInstanceFormat
     bool hasNormals = false;     ///< else positions are all that counts, and no normal is cheaper than the limit normal
+    bool bendsNormals = false;   ///< by slopes of heights and normal maps, per fragment
     bool drawsHidden = false;    ///< faces out of view too: what casts a shadow, and what cracks are counted through
     bool isAdditive = false;
     bool drawsLines = false;
@@ -46,7 +47,8 @@ constexpr DrawPassRow kDrawPasses[] = {
      .depth = kDepthFormat,
      .samples = VK_SAMPLE_COUNT_4_BIT,
      .marksInstances = true,
-     .hasNormals = true},
+     .hasNormals = true,
+     .bendsNormals = true},
     {.name = "lines",
      .constant = kPassLines,
      .fragment = "surface.frag",
@@ -68,7 +70,8 @@ constexpr DrawPassRow kDrawPasses[] = {
      .colors = {kLayerFormat, kLayerFormat},
      .depth = kDepthFormat,
      .marksInstances = true,
-     .hasNormals = true},
+     .hasNormals = true,
+     .bendsNormals = true},
 };
 
 constexpr const DrawPassRow& rowOf(DrawPass pass) { return kDrawPasses[std::size_t(pass)]; }

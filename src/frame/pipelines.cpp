@@ -2,6 +2,14 @@
 #include "frame/renderer_parts.h"
 
 namespace relief {
+namespace {
+
+std::uint32_t normalMapConstant(const ModelPictures& pictures) {
+    if (!pictures.normalMap) return kNormalMapNone;
+    return pictures.normalMap->space == NormalSpace::object ? kNormalMapObject : kNormalMapTangent;
+}
+
+} // namespace
 
 ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const {
     const DrawPassRow& row = rowOf(pass);
@@ -12,14 +20,18 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     c.hasMips = drawn.rates.hasMips();
     c.hasInstances = row.marksInstances && frame.hasInstances();
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
+    const ModelPictures& pictures = drawn.pictures();
+    if (row.bendsNormals) {
+        c.hasTangents = pictures.needTangents();
+        c.hasSlopes = pictures.slopes.has_value();
+        c.normalMap = normalMapConstant(pictures);
+    }
     if (pass == DrawPass::layers) {
         c.wantsTexCoords = true;
     } else if (row.hasNormals) {
-        const bool hasMap =
-            drawn.surface != nullptr ? drawn.surface->albedo.has_value() : drawn.mesh->albedo.has_value();
         c.show = frame.technique.constant;
-        c.hasAlbedoMap = pass == DrawPass::surface && frame.technique.wantsAlbedo && hasMap && c.hasTexCoords;
-        c.wantsTexCoords = c.hasAlbedoMap;
+        c.hasAlbedoMap = pass == DrawPass::surface && frame.technique.wantsAlbedo && pictures.albedo && c.hasTexCoords;
+        c.wantsTexCoords = c.hasAlbedoMap || (row.bendsNormals && pictures.needTexCoords());
     }
     return c;
 }

@@ -29,7 +29,6 @@ Renderer::~Renderer() = default;
 
 Renderer::Parts::Parts(Device& device, const RendererDesc& desc)
     : device(device), desc(desc), targets(makeTargets(device, desc)), resources(device),
-      repeating(makeSampler(device, {})), clamped(makeSampler(device, clampedSampler(VK_FILTER_LINEAR))),
       around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
       nearest(makeSampler(device, clampedSampler(VK_FILTER_NEAREST))), timer(device, 8), counter(device), rater(device),
       dicer(device) {}
@@ -83,6 +82,29 @@ void Renderer::Parts::describeView(Frame& frame) {
     frame.bindings[kBindInstances] = {.view = targets.instances.view.get(), .sampler = nearest.get()};
 }
 
+VkSampler Renderer::Parts::samplerOf(const RenderOptions& options, Wrap wrap) {
+    Owned<VkSampler>& sampler = samplers[{options.filter, options.anisotropy, wrap}];
+    if (sampler.get() == VK_NULL_HANDLE) {
+        SamplerDesc sampling;
+        sampling.filter = options.filter == Filter::nearest ? VK_FILTER_NEAREST : VK_FILTER_LINEAR;
+        sampling.readsMips = options.filter == Filter::mipmap || options.filter == Filter::anisotropic;
+        if (options.filter == Filter::anisotropic)
+            sampling.anisotropy = std::min(options.anisotropy, device.traits().maxAnisotropy);
+        if (wrap == Wrap::clamp) sampling.wrapU = sampling.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+        sampler = makeSampler(device, sampling);
+    }
+    return sampler.get();
+}
+
+void Renderer::Parts::useSamplers(const Frame& frame, Drawn& drawn) {
+    const auto use = [&](std::uint32_t slot, const auto& map) {
+        if (map) drawn.bindings[slot].sampler = samplerOf(frame.options, map->wrap);
+    };
+    use(kBindAlbedo, drawn.pictures().albedo);
+    use(kBindSlopes, drawn.pictures().slopes);
+    use(kBindNormalMap, drawn.pictures().normalMap);
+}
+
 /// An instance with its tables, and the view in the model's own space.
 Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Instance& instance, std::size_t number) {
     Drawn drawn{.surface = instance.surface, .mesh = instance.mesh};
@@ -94,8 +116,7 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
         relief::describe(*drawn.surface, drawn.inputs, drawn.bindings);
     else
         relief::describe(*drawn.mesh, drawn.inputs, drawn.bindings);
-    const std::optional<AlbedoMap>& albedo = drawn.surface != nullptr ? drawn.surface->albedo : drawn.mesh->albedo;
-    if (albedo) drawn.bindings[kBindAlbedo].sampler = albedo->wrap == Wrap::repeat ? repeating.get() : clamped.get();
+    useSamplers(frame, drawn);
     drawn.bindings[kBindInputs].uniform = inputBuffers[number].handle.get();
     drawn.inputs.material = frame.materials[number];
 

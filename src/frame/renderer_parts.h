@@ -1,12 +1,16 @@
 // Internal: what a renderer is made of, and what it makes of the instances of one picture.
 #pragma once
 
+#include <tuple>
+
 #include "frame/passes.h"
 #include "frame/rendering.h"
 
 namespace relief {
 
 struct Renderer::Parts {
+    using SamplerKey = std::tuple<Filter, float, Wrap>;
+
     Parts(Device& device, const RendererDesc& desc);
 
     Device& device;
@@ -14,7 +18,8 @@ struct Renderer::Parts {
     Targets targets;
     PassResources resources;
     std::vector<Buffer> inputBuffers; ///< one per instance, and one for the passes over pixels
-    Owned<VkSampler> repeating, clamped, around, nearest;
+    Owned<VkSampler> around, nearest;
+    std::map<SamplerKey, Owned<VkSampler>> samplers; ///< of the pictures of models
     Timer timer;
     PipelineCounter counter;
     EdgeRater rater;
@@ -42,6 +47,9 @@ struct Renderer::Parts {
         DicedMesh diced;
         BindingSet set;
 
+        [[nodiscard]] const ModelPictures& pictures() const {
+            return surface != nullptr ? surface->pictures : mesh->pictures;
+        }
         [[nodiscard]] bool isTriangles() const { return surface != nullptr && surface->isTriangles(); }
     };
 
@@ -70,6 +78,8 @@ struct Renderer::Parts {
     // prepare()
     void describeView(Frame& frame);
     void useEnvironment(Frame& frame);
+    VkSampler samplerOf(const RenderOptions& options, Wrap wrap);
+    void useSamplers(const Frame& frame, Drawn& drawn);
     Drawn describe(const Frame& frame, const Instance& instance, std::size_t number);
     void makeTriangles(const Frame& frame, Drawn& drawn, FrameStats& stats);
     void makePlan(const Frame& frame, Drawn& drawn, FrameStats& stats);

@@ -123,6 +123,7 @@ void Device::makeDevice() {
     vkGetPhysicalDeviceFeatures(physical_, &has);
     NeededFeatures use;
     use.base.features.tessellationShader = has.tessellationShader;
+    use.base.features.samplerAnisotropy = has.samplerAnisotropy;
     use.base.features.fillModeNonSolid = has.fillModeNonSolid;
     use.base.features.multiDrawIndirect = has.multiDrawIndirect;
     use.base.features.drawIndirectFirstInstance = has.drawIndirectFirstInstance;

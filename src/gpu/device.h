@@ -41,6 +41,7 @@ struct DeviceTraits {
     bool isCpu = false;
     bool hasTessellation = false;
     bool hasWireframe = false; ///< fillModeNonSolid
+    float maxAnisotropy = 1;   ///< of samplers; 1 without samplerAnisotropy
     bool hasTransformFeedback = false;
     bool hasVertexStores = false; ///< vertex stages may write to buffers
     std::uint32_t maxTessellationLevel = 0;

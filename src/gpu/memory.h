@@ -143,6 +143,8 @@ struct SamplerDesc {
     VkFilter filter = VK_FILTER_LINEAR;
     VkSamplerAddressMode wrapU = VK_SAMPLER_ADDRESS_MODE_REPEAT;
     VkSamplerAddressMode wrapV = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    bool readsMips = true;
+    float anisotropy = 1; ///< samples along the longest axis of a footprint, at most DeviceTraits::maxAnisotropy
 };
 Owned<VkSampler> makeSampler(Device& device, const SamplerDesc& desc);
 

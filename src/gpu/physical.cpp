@@ -136,6 +136,7 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
 
     // Which paths it can draw by, and how shaders read tables.
     traits.hasTessellation = features.tessellationShader == VK_TRUE;
+    traits.maxAnisotropy = features.samplerAnisotropy == VK_TRUE ? limits.maxSamplerAnisotropy : 1;
     traits.hasWireframe = features.fillModeNonSolid == VK_TRUE;
     traits.maxTessellationLevel = traits.hasTessellation ? limits.maxTessellationGenerationLevel : 0;
     traits.hasVertexStores = features.vertexPipelineStoresAndAtomics == VK_TRUE;

@@ -81,7 +81,9 @@ Owned<VkSampler> makeSampler(Device& device, const SamplerDesc& desc) {
     info.addressModeU = desc.wrapU;
     info.addressModeV = desc.wrapV;
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    info.maxLod = VK_LOD_CLAMP_NONE;
+    info.maxLod = desc.readsMips ? VK_LOD_CLAMP_NONE : 0;
+    info.anisotropyEnable = desc.anisotropy > 1 ? VK_TRUE : VK_FALSE;
+    info.maxAnisotropy = desc.anisotropy;
     VkSampler sampler = VK_NULL_HANDLE;
     checkVulkan(vkCreateSampler(device.handle(), &info, nullptr, &sampler), "vkCreateSampler");
     return {device.handle(), sampler, vkDestroySampler};

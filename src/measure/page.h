@@ -30,6 +30,7 @@ std::string drawBandwidthFigures(const Results& results);
 std::string drawScalingFigures(const Results& results);
 std::string drawBreakEvenFigures(const Results& results);
 std::string drawAnimateFigures(const Results& results);
+std::string drawDetailFigures(const Results& results);
 
 /// A table of rows of one suite, scene and axis: methods down, metrics across.
 std::string makeHtmlTable(std::span<const Row* const> rows);

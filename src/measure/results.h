@@ -32,7 +32,9 @@ enum class Metric {
     // Memory of a process.
     surfaceAndMapBytes, bufferBytes, bufferBytesAtRate1, processBytes, processBytesAtRate1, memoryPerBufferByte,
     // Starting up.
-    coldRunTime, warmRunTime, deviceOpenTime, warmFrameTime, coldRunPerFrame
+    coldRunTime, warmRunTime, deviceOpenTime, warmFrameTime, coldRunPerFrame,
+    // Against displacement whose segments are a quarter as long.
+    errorPerFinerError, timePerFinerTime
 };
 // clang-format on
 struct MetricInfo {
@@ -50,12 +52,14 @@ enum class Method {
     denseRaw, denseQuantised, denseDraco, simplifiedRaw, simplifiedQuantised, simplifiedDraco,
     tessellation, grid, dicing,
     posedCage, posedCageTessellation, posedCageDicing, denseSkinnedOnDevice, densePosedOnHost,
-    preparation, reliefRender
+    preparation, reliefRender,
+    displacement, displacementAndBump, bump, undisplaced
 };
 // clang-format on
-enum class Suite { bandwidth, frame, animate, memory, scaling, startup };
-/// What a suite varies. `pixelTriangles` are triangles in a picture that has one pixel for each.
-enum class Axis { none, tolerance, triangles, pixelTriangles, faces };
+enum class Suite { bandwidth, frame, animate, memory, scaling, startup, detail };
+/// What a suite varies. `pixelTriangles` are triangles in a picture that has one pixel for each, `segmentPixels` the
+/// length of segments on screen.
+enum class Axis { none, tolerance, triangles, pixelTriangles, faces, segmentPixels };
 /// Whether a value was measured (also by counting or writing a file) or computed from measured values.
 enum class Origin { measured, computed };
 

@@ -97,5 +97,6 @@ void measureFrame(SuiteContext& context, const TestScene& scene);
 void measureScaling(SuiteContext& context, const TestScene& scene);
 void measureAnimate(SuiteContext& context, const TestScene& scene);
 void measureBandwidth(SuiteContext& context, const TestScene& scene);
+void measureDetail(SuiteContext& context, const TestScene& scene);
 
 } // namespace relief

@@ -36,6 +36,27 @@ struct DenseMesh {
 /// may differ there. Triangles that lose a corner are removed: a closed surface stays closed.
 DenseMesh weldPositions(const DenseMesh& mesh);
 
+/// Derivatives of a mesh's points by its texture coordinates, one of each per vertex, in units of the mesh per unit of
+/// s and t. They are as long as the surface stretches the texture, and need not be perpendicular to each other or to
+/// the vertex normal.
+struct Tangents {
+    std::vector<vec3> ps, pt;
+};
+
+/// Averages p_s and p_t of the triangles around each vertex, weighted by their angles there. With edges e_i = v_i - v_0
+/// and their texture coordinates (Ds_i, Dt_i), a triangle has A = Ds_1 Dt_2 - Ds_2 Dt_1,
+///   p_s = (Dt_2 e_1 - Dt_1 e_2) / A,  p_t = (Ds_1 e_2 - Ds_2 e_1) / A.
+/// Triangles without area, in space or in the texture, are ignored. Vertices that have no others, or whose average has
+/// no plane, get unit vectors perpendicular to the vertex normal and to each other, with p_s x p_t along it.
+/// The mesh must have texture coordinates. Call splitMirrored first: where mirrored halves of a texture meet in one
+/// vertex, their tangents cancel.
+Tangents computeTangents(const DenseMesh& mesh);
+
+/// Splits the vertices that are used by triangles of both orientations in the texture (signs of A): the mirrored ones
+/// get copies behind the other vertices. Positions, normals and the order of the triangles do not change. Depends on
+/// texture coordinates alone, so that all poses of a mesh are split in the same way.
+DenseMesh splitMirrored(DenseMesh mesh);
+
 /// Throws Failure::usage unless the extension of `path` is one that writeMesh supports: .ply, .obj or .glb.
 void checkMeshPath(const std::string& path);
 

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "model/albedo.h"
+#include "model/pictures.h"
 #include "model/stages.h"
 
 namespace relief {
@@ -92,8 +92,10 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
     if (desc.albedo != nullptr)
-        albedo =
+        pictures.albedo =
             AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.height != nullptr ? desc.height->wrap : Wrap::repeat};
+    if (desc.bump != nullptr) pictures.slopes = uploadSlopes(device, *desc.bump);
+    if (desc.normalMap != nullptr) pictures.normalMap = uploadNormals(device, *desc.normalMap);
 
     uploadTables(device, surface, *this);
     copyTopology(surface, *this);
@@ -120,6 +122,33 @@ void SurfaceModel::setPoints(PointSets other) {
     normalBounds.clear();
 }
 
+std::vector<vec4> toTexels(const Tangents& tangents) {
+    std::vector<vec4> texels;
+    texels.reserve(2 * tangents.ps.size());
+    for (std::size_t i = 0; i < tangents.ps.size(); ++i) {
+        texels.emplace_back(tangents.ps[i], 0.0f);
+        texels.emplace_back(tangents.pt[i], 0.0f);
+    }
+    return texels;
+}
+
+namespace {
+
+/// What bends the normals of a mesh, and the tangents that it needs for that.
+void uploadDetail(Device& device, const MeshModelDesc& desc, MeshModel& model) {
+    if (desc.bump != nullptr) model.pictures.slopes = uploadSlopes(device, *desc.bump);
+    if (desc.normalMap != nullptr) model.pictures.normalMap = uploadNormals(device, *desc.normalMap);
+    std::vector<vec4> texels;
+    if (model.pictures.needTangents()) {
+        RELIEF_CHECK(desc.tangents != nullptr);
+        RELIEF_CHECK(desc.tangents->ps.size() == desc.mesh->positions.size());
+        texels = toTexels(*desc.tangents);
+    }
+    model.tangents = uploadTexels(device, {.name = "mesh tangents"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
+}
+
+} // namespace
+
 MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     const std::uint64_t before = device.allocatedBytes();
     const DenseMesh& mesh = *desc.mesh;
@@ -134,7 +163,8 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     texCoords =
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
     indices = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    if (desc.albedo != nullptr) albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), Wrap::repeat};
+    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), Wrap::repeat};
+    uploadDetail(device, desc, *this);
     vertexCount = std::uint32_t(mesh.positions.size());
     triangleCount = std::uint32_t(mesh.indices.size() / 3);
     hasTexCoords = !mesh.texCoords.empty();

@@ -32,6 +32,33 @@ struct AlbedoMap {
     Wrap wrap = Wrap::repeat;
 };
 
+/// A normal map with its mip levels.
+struct GpuNormalMap {
+    Texture texture; ///< unit normals as NormalMap holds them, and means of them
+    NormalSpace space = NormalSpace::tangent;
+    Wrap wrap = Wrap::repeat;
+};
+
+/// The slopes of a height map that bend normals per fragment.
+struct GpuSlopeMap {
+    Texture texture; ///< as SlopeMap::texels
+    float unit = 1;  ///< SlopeMap::unit
+    Wrap wrap = Wrap::repeat;
+};
+
+/// What fragments read of a model, as far as there is any of it.
+struct ModelPictures {
+    std::optional<AlbedoMap> albedo;
+    std::optional<GpuSlopeMap> slopes;
+    std::optional<GpuNormalMap> normalMap;
+
+    /// Whether normals are bent or turned in directions along the surface, which vertices have to carry.
+    [[nodiscard]] bool needTangents() const {
+        return slopes || (normalMap && normalMap->space == NormalSpace::tangent);
+    }
+    [[nodiscard]] bool needTexCoords() const { return slopes || normalMap; }
+};
+
 // --- surfaces -----------------------------------------------------------------------------------------------------
 
 /// The points that patches are made of, one pose after another in one table: four floats per point, the last one
@@ -47,6 +74,8 @@ struct SurfaceModelDesc {
     std::span<const vec3> cagePositions;   ///< one per vertex of the cage
     const HeightMap* height = nullptr;     ///< null: the limit surface itself
     const MapEncoding* encoding = nullptr; ///< of the height map; null: 32-bit floats
+    const HeightMap* bump = nullptr;       ///< heights whose slopes normals show, as far as `height` does not
+    const NormalMap* normalMap = nullptr;  ///< of object space only where the cage never moves
     const Image* albedo = nullptr;         ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
@@ -60,7 +89,7 @@ struct SurfaceModel {
     PointSets points;
     pass::ModelTables tables{}; ///< where records begin; describe() fills in points and maps, Dicer what dicing needs
     std::optional<GpuHeightMap> height;
-    std::optional<AlbedoMap> albedo;
+    ModelPictures pictures;
     std::uint64_t byteCount = 0; ///< resident on the device: buffers and textures
 
     // On the host: what plans of draws are made from.
@@ -99,7 +128,10 @@ struct SurfaceModel {
 
 struct MeshModelDesc {
     const DenseMesh* mesh = nullptr;
-    const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
+    const HeightMap* bump = nullptr;      ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
+    const NormalMap* normalMap = nullptr; ///< ... unless the map is of object space
+    const Tangents* tangents = nullptr;   ///< of the mesh
+    const Image* albedo = nullptr;        ///< as SurfaceModelDesc::albedo
 };
 
 /// A triangle mesh as it is: what displaced surfaces are compared with.
@@ -108,12 +140,16 @@ struct MeshModel {
 
     TexelBuffer vertices;  ///< two texels per vertex: position with height, normal
     TexelBuffer texCoords; ///< per vertex, or empty
+    TexelBuffer tangents;  ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
     Buffer indices;        ///< three 32-bit indices per triangle
-    std::optional<AlbedoMap> albedo;
+    ModelPictures pictures;
     std::uint32_t vertexCount = 0, triangleCount = 0;
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
 };
+
+/// What MeshModel::tangents holds: p_s and p_t in turn, no slopes.
+std::vector<vec4> toTexels(const Tangents& tangents);
 
 // --- either -------------------------------------------------------------------------------------------------------
 

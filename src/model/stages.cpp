@@ -23,6 +23,8 @@ constexpr BindingRow kBindings[] = {
     {kBindLevels, BindingKind::floats},        {kBindEdgeHeights, BindingKind::floats},
     {kBindDepths, BindingKind::image},         {kBindNormals, BindingKind::image},
     {kBindColors, BindingKind::image},         {kBindInstances, BindingKind::integerImage},
+    {kBindSlopes, BindingKind::image},         {kBindNormalMap, BindingKind::image},
+    {kBindMeshTangents, BindingKind::floats},
 };
 static_assert(std::size(kBindings) == kBindCount);
 
@@ -40,8 +42,13 @@ VkDescriptorType descriptorType(const Device& device, BindingKind kind) {
     }
 }
 
-void describeAlbedo(const std::optional<AlbedoMap>& albedo, PassBindings& bindings) {
-    if (albedo) bindings[kBindAlbedo].view = albedo->texture.view.get();
+/// The pictures that fragments read. They keep the samplers that are bound.
+void describePictures(const ModelPictures& pictures, PassInputs& inputs, PassBindings& bindings) {
+    if (pictures.albedo) bindings[kBindAlbedo].view = pictures.albedo->texture.view.get();
+    if (pictures.normalMap) bindings[kBindNormalMap].view = pictures.normalMap->texture.view.get();
+    if (!pictures.slopes) return;
+    inputs.model.slopeUnit = pictures.slopes->unit;
+    bindings[kBindSlopes].view = pictures.slopes->texture.view.get();
 }
 
 } // namespace
@@ -68,6 +75,9 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdIsPlaced] = isPlaced;
     values[kIdHasInstances] = hasInstances;
     values[kIdEntries] = entryCount;
+    values[kIdHasTangents] = hasTangents;
+    values[kIdHasSlopes] = hasSlopes;
+    values[kIdNormalMap] = normalMap;
     return values;
 }
 
@@ -156,14 +166,15 @@ void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindi
         inputs.model.heightBound = model.height->heightBound;
         bindings[kBindHeight] = model.height->words.binding();
     }
-    describeAlbedo(model.albedo, bindings);
+    describePictures(model.pictures, inputs, bindings);
 }
 
 void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings) {
     inputs.model.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
     bindings[kBindMesh] = model.vertices.binding();
     bindings[kBindMeshTexCoords] = model.texCoords.binding();
-    describeAlbedo(model.albedo, bindings);
+    describePictures(model.pictures, inputs, bindings);
+    bindings[kBindMeshTangents] = model.tangents.binding();
 }
 
 } // namespace relief

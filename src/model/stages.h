@@ -27,6 +27,8 @@ struct ShaderConstants {
     std::uint32_t pass = kPassSurface;
     bool isMesh = false, isPlaced = false, hasInstances = false;
     std::uint32_t entryCount = 0; ///< kIdEntries
+    bool hasTangents = false, hasSlopes = false;
+    std::uint32_t normalMap = kNormalMapNone;
 
     /// One value per id, in the order of ids.
     [[nodiscard]] std::vector<std::uint32_t> values() const;
@@ -78,7 +80,7 @@ private:
     Owned<VkSampler> sampler_;
 };
 
-/// Fills a model's part of the inputs and binds its tables. The albedo map keeps the sampler that is bound.
+/// Fills a model's part of the inputs and binds its tables. Pictures keep the samplers that are bound.
 void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindings);
 void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings);
 

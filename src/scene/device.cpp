@@ -9,12 +9,22 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
                                  .cagePositions = object.cage.positions,
                                  .height = object.heightMap(),
                                  .encoding = &object.heightEncoding,
+                                 .bump = object.bumpMap(),
+                                 .normalMap = object.normalMap ? &*object.normalMap : nullptr,
                                  .albedo = object.albedo ? &*object.albedo : nullptr});
 }
 
 Model makeModel(Device& device, const LoadedObject& object) {
     if (!object.dense) return makeSurfaceModel(device, object);
-    return MeshModel(device, {.mesh = &*object.dense, .albedo = object.albedo ? &*object.albedo : nullptr});
+    std::optional<Tangents> tangents;
+    if (object.bumpMap() != nullptr || (object.normalMap && object.normalMap->space == NormalSpace::tangent))
+        tangents = computeTangents(*object.dense);
+    MeshModelDesc desc{.mesh = &*object.dense,
+                       .bump = object.bumpMap(),
+                       .normalMap = object.normalMap ? &*object.normalMap : nullptr,
+                       .tangents = tangents ? &*tangents : nullptr,
+                       .albedo = object.albedo ? &*object.albedo : nullptr};
+    return MeshModel(device, desc);
 }
 
 void stretchHeights(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {

@@ -27,10 +27,11 @@ Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
 
 /// What cannot work together, whatever the files hold.
 void checkUse(const ObjectDesc& desc, bool isDense) {
-    if (isDense && !desc.height.path.empty())
+    const Detail detail = desc.height.detail;
+    if (isDense && !desc.height.path.empty() && (detail == Detail::displacement || detail == Detail::both))
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
-             "catmark, loop or bilinear",
+             "catmark, loop or bilinear, or --detail bump",
              desc.cage);
 }
 
@@ -41,10 +42,29 @@ void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) 
     if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
 }
 
+/// Polygons that are drawn themselves have no (u,v) that could stand for texture coordinates.
+void checkMeshMaps(const LoadedObject& object, const ObjectDesc& desc) {
+    if (!object.dense || !object.dense->texCoords.empty()) return;
+    const std::string& map = object.bumpMap() != nullptr ? desc.height.path : desc.material.normalMap.path;
+    if (!map.empty()) fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
+}
+
 } // namespace
 
+bool needsTangents(const ObjectDesc& object) {
+    const bool isBumped =
+        !object.height.path.empty() && (object.height.detail == Detail::bump || object.height.detail == Detail::both);
+    const NormalMapDesc& normalMap = object.material.normalMap;
+    return isBumped || (!normalMap.path.empty() && normalMap.space == NormalSpace::tangent);
+}
+
 std::vector<std::string> listFiles(const ObjectDesc& object) {
-    return {object.cage, object.height.path, object.motion.cachePath, object.motion.skinPath, object.material.albedo};
+    return {object.cage,
+            object.height.path,
+            object.motion.cachePath,
+            object.motion.skinPath,
+            object.material.albedo,
+            object.material.normalMap.path};
 }
 
 std::vector<std::string> listFiles(const SceneDesc& scene) {
@@ -61,7 +81,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     LoadedObject object;
     const double start = secondsNow();
     object.cage = readCage(desc.cage, warn);
-    checkTexCoords(object.cage, {desc.height.path, desc.material.albedo}, warn);
+    checkTexCoords(object.cage, {desc.height.path, desc.material.albedo, desc.material.normalMap.path}, warn);
     const Subdivision subdivision = chooseSubdivision(desc, object.cage);
     const bool isDense = subdivision == Subdivision::none;
     checkUse(desc, isDense);
@@ -71,6 +91,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
         EncodedMap map = loadHeights(desc, object.cage, warn);
         object.height = std::move(map.decoded);
         object.heightEncoding = std::move(map.encoding);
+        object.detail = desc.height.detail;
         fitUnitToHeights(object, warn);
     }
     object.animation = loadAnimation(desc.motion, object.cage, warn);
@@ -84,6 +105,8 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     // What is drawn: the polygons or a surface of them.
     if (isDense) {
         object.dense = denseMesh(object.cage);
+        if (needsTangents(desc) && !object.dense->texCoords.empty())
+            object.dense = splitMirrored(std::move(*object.dense));
     } else {
         object.options = {.scheme = toScheme(subdivision), .isolation = desc.isolation};
         object.surface = buildNamedSurface(object, desc.cage);
@@ -102,6 +125,13 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
         // A height map has been named in such a warning already.
         if (object.height.path.empty()) warnOutsideMap(object, scene.object.cage, object.material.albedo, warn);
     }
+    const std::string& normals = object.material.normalMap.path;
+    if (!normals.empty()) {
+        scene.object.normalMap = loadNormals(object, scene.object, warn);
+        if (object.height.path.empty() && object.material.albedo.empty())
+            warnOutsideMap(object, scene.object.cage, normals, warn);
+    }
+    checkMeshMaps(scene.object, object);
     if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
     return scene;
 }

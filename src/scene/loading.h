@@ -12,6 +12,10 @@ EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& war
 /// the file has several layers and where values are clamped to 0..1.
 Image loadAlbedo(const std::string& path, const Warn& warn);
 
+/// Reads the normal map of an object.
+/// Throws Failure::usage for one of object space on a cage that moves, and as loadNormalMap does.
+NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn);
+
 /// Warns where the cage's texture coordinates leave the unit square and nothing says how `map` continues there.
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn);
 

@@ -60,6 +60,18 @@ void fitUnitToHeights(LoadedObject& object, const Warn& warn) {
     object.height->scale /= coordinates.unit;
 }
 
+NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn) {
+    const NormalMapDesc& map = desc.material.normalMap;
+    if (map.space == NormalSpace::object && object.animation)
+        fail(Failure::usage,
+             "{}: normals of object space do not follow a cage that changes its shape; bake them as --normal-space "
+             "tangent",
+             map.path);
+    NormalOptions options{.space = map.space, .y = map.y, .limits = {}};
+    options.wrap = desc.height.wrap.value_or(options.wrap);
+    return loadNormalMap(map.path, options, warn);
+}
+
 Image loadAlbedo(const std::string& path, const Warn& warn) {
     // Which channels are the colors.
     const ImageInfo info = readImageInfo(path);

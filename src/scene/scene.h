@@ -31,6 +31,14 @@ struct HeightDesc {
     std::optional<Wrap> wrap; ///< default: repeat, with a warning where texture coordinates leave 0..1
     std::optional<MapFormat> format;
     HeightSpace space = HeightSpace::absolute;
+    Detail detail = Detail::displacement; ///< for verbs that draw pictures
+};
+
+/// A normal map as NormalOptions describes it. The path is empty where there is none.
+struct NormalMapDesc {
+    std::string path;
+    NormalSpace space = NormalSpace::tangent;
+    NormalY y = NormalY::up;
 };
 
 /// What moves the cage. Paths and deformers are empty where they are not asked for.
@@ -49,6 +57,7 @@ struct MaterialDesc {
     std::string albedo;        ///< path of a color map, or empty
     std::optional<vec3> color; ///< linear, multiplies the map; default: that of Material, or white with a map
     float roughness = Material().roughness;
+    NormalMapDesc normalMap;
 };
 
 struct ObjectDesc {
@@ -74,6 +83,9 @@ struct SceneDesc {
     LightingDesc lighting;
 };
 
+/// Whether normals are bent or turned along texture coordinates, by heights or by a normal map.
+bool needsTangents(const ObjectDesc& object);
+
 /// All files that are named: outputs must not replace them. Names are empty where nothing is asked for.
 std::vector<std::string> listFiles(const ObjectDesc& object);
 std::vector<std::string> listFiles(const SceneDesc& scene);
@@ -89,11 +101,20 @@ struct LoadedObject {
     SurfaceOptions options;
     Surface surface;
     std::optional<HeightMap> height; ///< as the device reads it
-    MapEncoding heightEncoding;      ///< how the device stores it
+    Detail detail = Detail::displacement;
+    MapEncoding heightEncoding; ///< how the device stores it
     std::optional<Image> albedo;
+    std::optional<NormalMap> normalMap;
     double loadSeconds = 0, surfaceSeconds = 0; ///< what reading files and building the surface took
 
-    [[nodiscard]] const HeightMap* heightMap() const { return height ? &*height : nullptr; }
+    /// The heights that move the surface, or null.
+    [[nodiscard]] const HeightMap* heightMap() const {
+        return height && (detail == Detail::displacement || detail == Detail::both) ? &*height : nullptr;
+    }
+    /// The heights that bend its normals, or null.
+    [[nodiscard]] const HeightMap* bumpMap() const {
+        return height && (detail == Detail::bump || detail == Detail::both) ? &*height : nullptr;
+    }
     /// Coordinates of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
     [[nodiscard]] const Coordinates& coordinates() const;
 };
@@ -129,14 +150,15 @@ std::unique_ptr<Animation> loadAnimation(const MotionDesc& desc, const Cage& cag
 /// Polygons that are drawn themselves and move: posed on the host, because their normals are.
 class MovingPolygons {
 public:
-    /// The animation has to outlive it.
-    MovingPolygons(Cage rest, const Animation& animation);
+    /// The animation has to outlive it. `hasTangents`: meshes are split as Tangents need it.
+    MovingPolygons(Cage rest, const Animation& animation, bool hasTangents);
     /// The mesh at a time. Vertices and triangles have the same order at all times.
     [[nodiscard]] DenseMesh makeMesh(double seconds) const;
 
 private:
     Cage rest_;
     const Animation* animation_;
+    bool hasTangents_;
 };
 
 // --- on the device ------------------------------------------------------------------------------------------------

@@ -51,6 +51,28 @@ inline constexpr Word<std::optional<MapFormat>> kMapFormatChoices[] = {
     {"bc4", MapFormat::bc4, "4 bits per texel, in compressed blocks"},
 };
 
+/// What heights do to a picture.
+enum class Detail {
+    displacement, ///< they move the surface
+    bump,         ///< they bend normals per fragment; the surface stays where it is
+    both,         ///< they move the surface as far as its triangles can follow, and bend normals by the rest
+    none,         ///< nothing
+};
+
+inline constexpr Word<Detail> kDetails[] = {
+    {"displacement", Detail::displacement, "heights move the surface"},
+    {"bump", Detail::bump, "heights bend normals at every pixel; the surface stays where it is"},
+    {"both", Detail::both, "heights move the surface as far as its triangles can follow, and bend normals by the rest"},
+    {"none", Detail::none, "the surface without heights"},
+};
+
+inline constexpr Word<Filter> kFilters[] = {
+    {"nearest", Filter::nearest, "the nearest texel"},
+    {"bilinear", Filter::bilinear, "between four texels of the full map"},
+    {"mipmap", Filter::mipmap, "between mip levels with texels as large as the pixel"},
+    {"anisotropic", Filter::anisotropic, "several such lookups along what the pixel covers"},
+};
+
 inline constexpr Word<HeightSpace> kHeightSpaces[] = {
     {"absolute", HeightSpace::absolute, "cage units in every pose"},
     {"stretch", HeightSpace::stretch, "heights grow and shrink with the surface"},

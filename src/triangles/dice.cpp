@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::uint32_t kTileSamples = 1024; ///< of the insides of faces: enough for one load of control points
 constexpr std::uint64_t kVertexBytes = 32;   ///< position and height, normal
+constexpr std::uint64_t kTangentBytes = 32;
 
 std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
 
@@ -188,12 +189,14 @@ Dicer::~Dicer() = default;
 
 namespace {
 
-std::uint64_t byteCountOf(const Work& work, bool hasTexCoords) {
-    return work.vertexCount * (kVertexBytes + (hasTexCoords ? sizeof(vec2) : 0)) + work.triangleCount * 12;
+std::uint64_t byteCountOf(const Work& work, const DiceOptions& options) {
+    const std::uint64_t vertexBytes =
+        kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) + (options.wantsTangents ? kTangentBytes : 0);
+    return work.vertexCount * vertexBytes + work.triangleCount * 12;
 }
 
 /// The buffers of a mesh, not written yet, and what is known of it beforehand.
-DicedMesh allocateMesh(Device& device, const Work& work, bool hasTexCoords) {
+DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& options) {
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     // Texture coordinates are an empty table where nothing reads them.
     DicedMesh mesh;
@@ -202,9 +205,14 @@ DicedMesh allocateMesh(Device& device, const Work& work, bool hasTexCoords) {
                    VK_FORMAT_R32G32B32A32_SFLOAT);
     mesh.texCoords = makeTexels(device,
                                 {.name = "diced texture coordinates",
-                                 .bytes = hasTexCoords ? work.vertexCount * sizeof(vec2) : 0,
+                                 .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
                                  .usage = usage},
                                 VK_FORMAT_R32G32_SFLOAT);
+    mesh.tangents = makeTexels(device,
+                               {.name = "diced tangents",
+                                .bytes = options.wantsTangents ? work.vertexCount * kTangentBytes : 0,
+                                .usage = usage},
+                               VK_FORMAT_R32G32B32A32_SFLOAT);
     mesh.indices = makeBuffer(
         device,
         {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
@@ -217,8 +225,8 @@ DicedMesh allocateMesh(Device& device, const Work& work, bool hasTexCoords) {
     mesh.vertexCount = std::uint32_t(work.vertexCount);
     mesh.triangleCount = std::uint32_t(work.triangleCount);
     mesh.maxRate = work.maxRate;
-    mesh.byteCount = byteCountOf(work, hasTexCoords);
-    mesh.hasTexCoords = hasTexCoords;
+    mesh.byteCount = byteCountOf(work, options);
+    mesh.hasTexCoords = options.wantsTexCoords;
     return mesh;
 }
 
@@ -248,8 +256,8 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     // What there is to do, and whether the memory allowed holds it.
     const DiceTable& table = tableOf(model);
     const Work work = WorkBuilder(model, table, rates).build();
-    checkMemory(device, byteCountOf(work, options.wantsTexCoords), work, options.memory);
-    DicedMesh mesh = allocateMesh(device, work, options.wantsTexCoords);
+    checkMemory(device, byteCountOf(work, options), work, options.memory);
+    DicedMesh mesh = allocateMesh(device, work, options);
 
     // What the shaders read.
     std::vector<std::uint32_t> tiles;
@@ -274,10 +282,12 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     // What they write.
     inputs.targets.dicedVertices = mesh.vertices.buffer.address;
     inputs.targets.dicedTexCoords = mesh.texCoords.buffer.address;
+    inputs.targets.dicedTangents = mesh.tangents.buffer.address;
     inputs.targets.dicedIndices = mesh.indices.address;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
+    constants.hasTangents = options.wantsTangents;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
     Passes passes = passesOf(work, table, firstRing, firstCell);

@@ -1,7 +1,9 @@
-#include "model/albedo.h"
+#include "model/pictures.h"
 
 #include <algorithm>
 #include <cmath>
+
+#include <glm/gtc/packing.hpp>
 
 namespace relief {
 namespace {
@@ -58,7 +60,55 @@ AlbedoMips albedoMips(const Image& image) {
     return mips;
 }
 
+/// Normals as four halves each, and those of the mips.
+std::vector<std::uint64_t> packNormals(const NormalMap& map, std::uint32_t& levels) {
+    std::vector<std::uint64_t> texels;
+    std::vector<vec3> level = map.normals;
+    int width = map.width, height = map.height;
+    for (levels = 1;; ++levels) {
+        for (const vec3& n : level) texels.push_back(glm::packHalf4x16({n, 0}));
+        if (width == 1 && height == 1) return texels;
+        const int w = std::max(width / 2, 1), h = std::max(height / 2, 1);
+        const auto at = [&](int x, int y) {
+            return level[std::size_t(std::min(y, height - 1)) * std::size_t(width) +
+                         std::size_t(std::min(x, width - 1))];
+        };
+        std::vector<vec3> coarse;
+        coarse.reserve(std::size_t(w) * std::size_t(h));
+        for (int y = 0; y < h; ++y)
+            for (int x = 0; x < w; ++x)
+                coarse.push_back(0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
+                                          at(2 * x + 1, 2 * y + 1)));
+        level = std::move(coarse), width = w, height = h;
+    }
+}
+
 } // namespace
+
+GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
+    const SlopeMap slopes = computeSlopes(map);
+    return {uploadTexture(device,
+                          {.name = "slopes",
+                           .width = std::uint32_t(map.width),
+                           .height = std::uint32_t(map.height),
+                           .mipCount = slopes.levelCount,
+                           .format = VK_FORMAT_R16G16_SFLOAT},
+                          std::as_bytes(std::span(slopes.texels)), 4),
+            slopes.unit, map.wrap};
+}
+
+GpuNormalMap uploadNormals(Device& device, const NormalMap& map) {
+    std::uint32_t levels = 0;
+    const std::vector<std::uint64_t> texels = packNormals(map, levels);
+    return {uploadTexture(device,
+                          {.name = "normal map",
+                           .width = std::uint32_t(map.width),
+                           .height = std::uint32_t(map.height),
+                           .mipCount = levels,
+                           .format = VK_FORMAT_R16G16B16A16_SFLOAT},
+                          std::as_bytes(std::span(texels)), 8),
+            map.space, map.wrap};
+}
 
 Texture uploadAlbedo(Device& device, const Image& image) {
     const AlbedoMips mips = albedoMips(image);
