@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 
 #include <unistd.h>
@@ -52,7 +53,7 @@ std::string Progress::speed() const {
     const double seconds = secondsNow() - startSeconds_;
     if (unit_.empty() || done_ == 0 || seconds <= 0) return "";
     const double perSecond = double(done_) / seconds;
-    const auto left = std::uint64_t(double(total_ - done_) / perSecond + 0.5);
+    const auto left = std::uint64_t(std::llround(double(total_ - done_) / perSecond));
     return fmt::format("  {:.{}f} {}/s, {}:{:02} left ", perSecond, perSecond < 10 ? 1 : 0, unit_, left / 60,
                        left % 60);
 }
