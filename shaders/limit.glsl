@@ -127,5 +127,7 @@ LimitFrame patchFrame(ControlPoints points, vec2 uv) {
 }
 
 // Derivatives by the face's (u,v) from those by the patch's own.
-LimitFrame byFace(LimitFrame f, float k) { return LimitFrame(f.p, k * f.pu, k * f.pv, k * k * f.puu, k * k * f.puv, k * k * f.pvv); }
+LimitFrame byFace(LimitFrame f, float k) {
+    return LimitFrame(f.p, k * f.pu, k * f.pv, k * k * f.puu, k * k * f.puv, k * k * f.pvv);
+}
 #endif

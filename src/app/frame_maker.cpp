@@ -79,7 +79,7 @@ std::vector<double> FrameMaker::measuredTimes() const {
 void FrameMaker::placeScene() {
     const SceneDesc& scene = args_.scene;
     const std::vector<dvec3> points = computeOutlineOfAll(loaded_.object);
-    for (const dvec3& p : points) bounds_.add(p);
+    bounds_ = computeBounds(points);
     camera_ = holdAllPoints(toLocal(loaded_.object.coordinates(), scene.camera), points,
                             double(scene.size.x) / scene.size.y, args_.turntableCount > 0);
 }
@@ -108,7 +108,7 @@ void FrameMaker::makeModel() {
     malloc_trim(0);
 }
 
-/// Of the object in the pose that is drawn, or in all poses where the device does not move it.
+/// The box around the object in the pose that is drawn, or in all poses where the device does not move it.
 Bounds FrameMaker::boundsNow() const {
     if (poser_) return poser_->bounds();
     return meshPoser_ ? polygonBounds_ : bounds_;
@@ -142,8 +142,7 @@ void FrameMaker::posePolygons(int frame, DrawnFrame& drawn) {
     if (loaded_.object.needsTangents) tangents = computeTangents(mesh);
     drawn.uploadedBytes = meshPoser_->upload(mesh, tangents ? &*tangents : nullptr);
     drawn.poseMs = 1e3 * (secondsNow() - start);
-    polygonBounds_ = {};
-    for (const vec3& p : mesh.positions) polygonBounds_.add(dvec3(p));
+    polygonBounds_ = computeBounds(mesh.positions);
 }
 
 DrawnFrame FrameMaker::draw(int frame) {

@@ -104,7 +104,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     options.lighting =
         makeLighting(args.scene.lighting, args.scene.camera.azimuth, environment ? &*environment : nullptr);
     options.camera = makeCamera(args.scene, coordinates, points);
-    for (const dvec3& p : points) options.bounds.add(p);
+    options.bounds = computeBounds(points);
     Model model = makeModel(device, loaded.object);
     SurfaceModel* surface = std::get_if<SurfaceModel>(&model);
     if (surface != nullptr) keepRestPose(device, *surface, loaded.object, args.scene.object.height.space);

@@ -174,6 +174,7 @@ std::string drawScalingFigures(const Results& results) {
 }
 
 std::string drawBreakEvenFigures(const Results& results) {
+    // All figures have the same axes and the same rule at 1.
     const std::vector<const Row*> rows = selectRows(results, Suite::scaling, Axis::triangles);
     const auto figure = [&](const char* title, Metric metric, const char* caption) {
         return drawFigure({.title = title,

@@ -94,7 +94,7 @@ struct Section {
     std::string figures;
 };
 
-/// Empty where the suite did not run. Tables are folded away where there are figures.
+/// Makes the section of a suite; empty where it did not run. Tables are folded away where there are figures.
 std::string makeSection(const Results& results, const Section& section) {
     const std::string tables = makeTables(results, section.suite);
     if (tables.empty()) return "";

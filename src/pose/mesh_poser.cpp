@@ -32,6 +32,7 @@ struct MeshPoser::Parts {
 
 MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, const Rig& rig)
     : parts_(new Parts{.device = device, .model = model}) {
+    // Tables that no pose changes.
     Parts& p = *parts_;
     const std::vector<vec4> vertices = verticesOf(mesh.positions, mesh.normals);
     const auto texels = [&](const char* name, VkFormat format, auto span) {
@@ -40,6 +41,8 @@ MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, co
     p.rest = texels("mesh at rest", VK_FORMAT_R32G32B32A32_SFLOAT, std::span(vertices));
     p.joints = texels("mesh joints", VK_FORMAT_R32_UINT, std::span(rig.joints));
     p.influences = texels("mesh joint weights", VK_FORMAT_R32_SFLOAT, std::span(rig.weights));
+
+    // What a pose uploads: the joints, or vertices that the host has posed.
     p.upload = makeTexels(device,
                           {.name = "mesh pose",
                            .bytes = std::uint64_t(kFloatsPerJoint) * rig.jointCount * sizeof(float),
@@ -49,6 +52,8 @@ MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, co
                                     .bytes = vertices.size() * sizeof(vec4) + model.texGradients.buffer.bytes,
                                     .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                     .memory = MemoryUse::upload});
+
+    // The pass that moves vertices into the model's own buffer.
     p.pipeline = makePosePipeline(device, "pose_mesh.comp");
     PoseBindings bindings;
     for (Binding& binding : bindings) binding = p.rest.binding(); // every one is bound, read or not

@@ -33,7 +33,7 @@ void fitUnitToHeights(LoadedObject& object, const Warn& warn);
 /// Joins the vertices of a cage and of what moves it. Throws Failure::usage when no face is left.
 void weldObject(LoadedObject& object, const Distance& distance);
 
-/// Warns of a surface that is open between vertices at one place.
+/// Warns of a surface that is open between vertices at the same position.
 void warnOfCoincidentVertices(const Cage& cage, const std::string& path, const Warn& warn);
 
 /// Warns of subdivision tags on polygons that are drawn themselves without being asked for.

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
+#include "base/clock.h"
 #include "shared/dice.h"
 #include "shared/rates.h"
 #include "triangles/dice_table.h"
@@ -208,6 +208,7 @@ std::uint64_t byteCountOf(const Work& work, const DiceOptions& options) {
 /// The buffers of a mesh, not written yet, and what is known of it beforehand.
 DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& options) {
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    // Texture coordinates are an empty table where nothing reads them.
     DicedMesh mesh;
     mesh.vertices =
         makeTexels(device, {.name = "diced vertices", .bytes = work.vertexCount * kVertexBytes, .usage = usage},
@@ -225,6 +226,8 @@ DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& opti
     mesh.indices = makeBuffer(
         device,
         {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
+
+    // Known before anything is diced.
     mesh.firstTriangles = work.firstTriangles;
     mesh.faceRates = work.faceRates;
     mesh.runFirsts = work.runFirsts;
@@ -315,7 +318,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
 }
 
 double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& set, const PassInputs& inputs) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = secondsNow();
     device.submitAndWait([&](VkCommandBuffer commands) {
         timer.reset(commands);
         resources.write(commands, inputs);
@@ -337,8 +340,7 @@ double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& s
     // Mesa's CPU driver stamps both times when it rasterizes, after all dispatches: the clock of the host serves
     // instead.
     const std::vector<double> times = timer.intervals();
-    if (device.traits().isCpu)
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    if (device.traits().isCpu) return 1e3 * (secondsNow() - start);
     return times.empty() ? 0 : times[0];
 }
 
