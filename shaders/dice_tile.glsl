@@ -9,12 +9,12 @@ shared vec2 sharedTexPoints[kMostPoints];
 vec3 ownPoints[kMostPoints];
 vec2 ownTexPoints[kMostPoints];
 
-// Only where heights stretch: of the rest pose.
+// Only where heights depend on the rest pose.
 shared vec3 sharedRestPoints[kMostPoints];
 vec3 ownRestPoints[kMostPoints];
 
 vec3 tilePoint(ControlPoints points, uint i) {
-    return kStretches && points.array == inputs.model.pointsRest ? ownRestPoints[i] : ownPoints[i];
+    return kReadsRest && points.array == inputs.model.pointsRest ? ownRestPoints[i] : ownPoints[i];
 }
 vec2 tileTexPoint(uint i) { return ownTexPoints[i]; }
 uvec4 tileRow(uint row) { return 4u * row + uvec4(0, 1, 2, 3); }
@@ -30,14 +30,15 @@ void loadTile(PatchPoints patchPoints) {
         if (k < patchSize(patchPoints.surface.type)) {
             uint i = pointIndex(patchPoints.surface, k);
             sharedPoints[k] = pointAt(inputs.model.pointsNow + i).xyz;
-            if (kStretches) sharedRestPoints[k] = pointAt(inputs.model.pointsRest + i).xyz;
+            if (kReadsRest) sharedRestPoints[k] = pointAt(inputs.model.pointsRest + i).xyz;
         }
-        if (kHasTexCoords && k < patchSize(patchPoints.texture.type)) sharedTexPoints[k] = texPointAt(pointIndex(patchPoints.texture, k));
+        if (kHasTexCoords && k < patchSize(patchPoints.texture.type))
+            sharedTexPoints[k] = texPointAt(pointIndex(patchPoints.texture, k));
     }
     barrier();
     // Here, outside all branches, where a load with a constant address is one load for all lanes.
     [[unroll]] for (uint i = 0u; i < kMostPoints; ++i) ownPoints[i] = sharedPoints[i];
-    if (kStretches) {
+    if (kReadsRest) {
         [[unroll]] for (uint i = 0u; i < kMostPoints; ++i) ownRestPoints[i] = sharedRestPoints[i];
     }
     if (kHasTexCoords) {

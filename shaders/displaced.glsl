@@ -21,7 +21,11 @@ vec3 unitOr(vec3 m, vec3 n) {
 
 // (h_u, h_v)
 vec2 heightDerivatives(SurfacePoint point, HeightSample height) {
+#ifdef RELIEF_HEIGHT_FUNCTION
+    vec2 dh = height.gradient;
+#else
     vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
+#endif
     if (kStretches) dh += height.h * point.logStretch;
     return dh;
 }
@@ -62,10 +66,10 @@ struct DisplacedSample {
     float h;
     LimitFrame frame;
     vec3 n;          // unit limit normal of the frame
-    vec2 gradient;   // (h_s, h_t)
+    vec2 gradient;   // (h_s, h_t); of a height function (h_u, h_v)
     mat2 jacobian;   // of the texture coordinates
-    vec4 tangentS;   // kHasTangents: as in varyings.glsl, in the model's own space
-    vec4 tangentT;
+    vec4 gradientS;  // kHasTexGradients: as in varyings.glsl, in the model's own space
+    vec4 gradientT;
 };
 
 // The drawn face's texture coordinates where the point is evaluated at another face.
@@ -75,24 +79,28 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     return patchFrame(fetchPatch(leaf.patchIndex, inputs.model.pointsNow).texture, leaf.uv).p.xy;
 }
 
-// Derivatives of the drawn surface by s and t: x_s = (x_u t_v - x_v t_u) / det J and x_t = (x_v s_u - x_u s_v) / det J. They
-// vanish where texture coordinates or the surface have no two directions: nothing bends the normal there.
-void addTangents(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
-    s.tangentS = s.tangentT = vec4(0);
-    mat2 J = point.tex.jacobian;
-    float det = determinant(J);
-    if (det == 0.0 || point.isStraight) return;
+// Gradients of s and t along the drawn surface x: with m = x_u x x_v, grad u = (x_v x m) / |m|^2 and grad v = (m x x_u) / |m|^2, and
+// grad s = s_u grad u + s_v grad v. They are 0 where the surface has no two directions: nothing bends the normal there.
+void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
+    s.gradientS = s.gradientT = vec4(0);
+    if (point.isStraight) return;
     bool hasSlopes = kHasHeight && kNormal != kNormalLimit;
     vec3 xu = point.frame.pu, xv = point.frame.pv;
     if (hasSlopes) displaceTangents(point, height, xu, xv);
-    s.tangentS = vec4((xu * J[1].y - xv * J[0].y) / det, hasSlopes ? height.gradient.x : 0.0) / point.stretch;
-    s.tangentT = vec4((xv * J[0].x - xu * J[1].x) / det, hasSlopes ? height.gradient.y : 0.0) / point.stretch;
+    vec3 m = cross(xu, xv);
+    float square = dot(m, m);
+    if (!(square > 0.0)) return;
+    vec3 gradientU = cross(xv, m) / square, gradientV = cross(m, xu) / square;
+    mat2 J = point.tex.jacobian;
+    vec2 slopes = hasSlopes ? height.gradient / point.stretch : vec2(0);
+    s.gradientS = vec4(point.stretch * (J[0].x * gradientU + J[1].x * gradientV), slopes.x);
+    s.gradientT = vec4(point.stretch * (J[0].y * gradientU + J[1].y * gradientV), slopes.y);
 }
 
 // What belongs to the face that a point is seen from.
 void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
     s.normal = displacedNormal(point, height);
-    if (kHasTangents) addTangents(s, point, height);
+    if (kHasTexGradients) addTexGradients(s, point, height);
     s.st = point.tex.st;
     s.frame = point.frame;
     s.n = point.n;
@@ -100,9 +108,39 @@ void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample hei
     s.jacobian = point.tex.jacobian;
 }
 
+#ifdef RELIEF_HEIGHT_FUNCTION
+// How far along u or v the function's slope is taken: inputs.model.heightStep on the surface at rest, no more than 1/64 of a
+// patch of the base, where its tangent vanishes.
+float slopeStep(vec3 tangent) {
+    float size = length(tangent);
+    return size > 64.0 * inputs.model.heightStep ? inputs.model.heightStep / size : 1.0 / 64.0;
+}
+
+// h by the function, and (h_u, h_v) by central differences along the tangents: h_u = (h(p + d p_u, st + d st_u) - h(p - d p_u,
+// st - d st_u)) / 2d. One call in a loop: the compiler unfolds every one.
+HeightSample sampleFunction(LimitFrame rest, TexFrame tex) {
+    vec2 d = vec2(slopeStep(rest.pu), slopeStep(rest.pv));
+    HeightSample s = HeightSample(0.0, vec2(0));
+    for (uint i = 0u; i < (kNormal == kNormalLimit ? 1u : 5u); ++i) {
+        float along = i == 0u ? 0.0 : (i & 1u) == 1u ? 1.0 : -1.0;
+        vec2 step = along * (i < 3u ? vec2(d.x, 0.0) : vec2(0.0, d.y));
+        precise vec3 p = rest.p + step.x * rest.pu + step.y * rest.pv;
+        precise vec2 st = tex.st + tex.jacobian * step;
+        float h = heightOfFunction(p, st);
+        if (i == 0u) s.h = h;
+        else s.gradient += along * h * (i < 3u ? vec2(0.5 / d.x, 0.0) : vec2(0.0, 0.5 / d.y));
+    }
+    return s;
+}
+#endif
+
 HeightSample heightAt(SurfacePoint point, float level) {
     if (!kHasHeight) return HeightSample(0.0, vec2(0));
+#ifdef RELIEF_HEIGHT_FUNCTION
+    HeightSample height = sampleFunction(point.rest, point.tex);
+#else
     HeightSample height = sampleHeight(point.tex.st, level);
+#endif
     if (!kStretches) return height;
     precise float h = point.stretch * height.h;
     return HeightSample(h, point.stretch * height.gradient);
@@ -150,8 +188,8 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
     if (count > 1u) direction = dot(direction, direction) > 1e-6 ? normalize(direction) : ownersNormal;
     precise vec3 q = displacedPoint(s.p, direction, s.h);
     s.q = q;
-    if (kHasTangents && !isOwn) {
-        // Tangents are those of the drawn face's texture coordinates, which may differ from the owner's.
+    if (kHasTexGradients && !isOwn) {
+        // Gradients are those of the drawn face's texture coordinates, which may differ from the owner's.
         Leaf leaf = findLeaf(face, faceUV);
         SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex, pose), leaf, faceUV, true);
         addAttributes(s, point, heightAt(point, location.level));

@@ -87,6 +87,10 @@ HeightSample sampleLevel(uint map, vec2 st, uint number) {
     return s;
 }
 
+#ifdef RELIEF_HEIGHT_FUNCTION
+#include "function.glsl"
+#endif
+
 // Between two levels of the map.
 HeightSample sampleHeight(vec2 st, float level) {
     uint map = mapAt(st);

@@ -27,6 +27,9 @@ vec2 motionOf(uint face, vec2 uv) {
     vec2 motion = vec2(0);
     SampleLocation location = insideLocation(face, uv);
     for (uint i = 0u; i < 2u; ++i) { // one call: the compiler unfolds every one
+#ifdef RELIEF_HEIGHT_FUNCTION
+        functionTime = i == 0u ? inputs.model.heightTime : inputs.model.heightTimeBefore;
+#endif
         vec3 q = displacedInPose(face, uv, location, i == 0u ? inputs.model.pointsNow : inputs.model.pointsBefore).q;
         if (i == 0u) motion += pixelOf(inputs.view.toClip, q);
         else motion -= pixelOf(inputs.view.toClipBefore, q);

@@ -14,6 +14,9 @@ struct SurfacePoint {
     bool isStraight; // at a straight corner: p_u and p_v are parallel and nothing can be derived from them
     float stretch;   // what heights are multiplied with: 1 unless they stretch with the surface
     vec2 logStretch; // derivatives of its logarithm by (u,v)
+#ifdef RELIEF_HEIGHT_FUNCTION
+    LimitFrame rest; // the frame at rest: what the function is given
+#endif
 };
 
 bool spansPlane(vec3 a, vec3 b) {
@@ -92,7 +95,7 @@ PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsText
 
 SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
     bool hasTexture = wantsTexture && readsTexCoords();
-    bool hasRest = kStretches && wantsTexture && (kHasHeight || kHasTangents);
+    bool hasRest = kReadsRest && wantsTexture && (kHasHeight || kHasTexGradients);
     PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
     SurfacePoint point;
     point.frame = frames.surface;
@@ -105,7 +108,10 @@ SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool want
     precise vec3 n = normal / area;
     point.area = area;
     point.n = n;
-    if (hasRest) {
+#ifdef RELIEF_HEIGHT_FUNCTION
+    point.rest = hasRest ? frames.rest : frames.surface;
+#endif
+    if (hasRest && kStretches) {
         PatchPoints atRest = patchPoints;
         atRest.surface.array = inputs.model.pointsRest;
         bool isStraight;

@@ -8,6 +8,7 @@
 #include "check/check.h"
 #include "displacement/displacement.h"
 #include "distance/distance.h"
+#include "formula/formula.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"
 #include "maps/maps.h"

@@ -24,15 +24,17 @@ RELIEF_CONSTANT uint kIdHasMotion = 11u;      // layers: the surface was in anot
 RELIEF_CONSTANT uint kIdMapFormat = 12u;      // kMap... of shared/maps.h
 RELIEF_CONSTANT uint kIdHasWideIndices = 13u; // control points have 32-bit indices, see shared/records.h
 RELIEF_CONSTANT uint kIdHasStraightCorners = 14u;
-RELIEF_CONSTANT uint kIdPass = 15u;         // kPass...
-RELIEF_CONSTANT uint kIdIsMesh = 16u;       // layers: the model is a triangle mesh
-RELIEF_CONSTANT uint kIdIsPlaced = 17u;     // the model is turned or scaled in the world
-RELIEF_CONSTANT uint kIdHasInstances = 18u; // samples carry the number of their instance
-RELIEF_CONSTANT uint kIdEntries = 19u;      // posing: entries per stencil block, or 0
-RELIEF_CONSTANT uint kIdHasTangents = 20u;  // vertices carry tangents and slopes, see varyings.glsl
-RELIEF_CONSTANT uint kIdHasSlopes = 21u;    // normals are bent by the slopes of heights, per fragment
-RELIEF_CONSTANT uint kIdNormalMap = 22u;    // kNormalMap...
-RELIEF_CONSTANT uint kIdCount = 23u;
+RELIEF_CONSTANT uint kIdPass = 15u;            // kPass...
+RELIEF_CONSTANT uint kIdIsMesh = 16u;          // layers: the model is a triangle mesh
+RELIEF_CONSTANT uint kIdIsPlaced = 17u;        // the model is turned or scaled in the world
+RELIEF_CONSTANT uint kIdHasInstances = 18u;    // samples carry the number of their instance
+RELIEF_CONSTANT uint kIdEntries = 19u;         // posing: entries per stencil block, or 0
+RELIEF_CONSTANT uint kIdHasTexGradients = 20u; // vertices carry tangents and slopes, see varyings.glsl
+RELIEF_CONSTANT uint kIdHasSlopes = 21u;       // normals are bent by the slopes of heights, per fragment
+RELIEF_CONSTANT uint kIdNormalMap = 22u;       // kNormalMap...
+RELIEF_CONSTANT uint kIdHeightFunction = 23u;  // number of a height function, for keys of pipelines
+RELIEF_CONSTANT uint kIdReadsRest = 24u; // heights depend on the rest pose, and it is another than that of the frame
+RELIEF_CONSTANT uint kIdCount = 25u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

@@ -28,8 +28,12 @@ struct ModelTables {
     uint pointsBefore;
     uint pointsRest;
 
-    float heightBound; // largest |h|, cage units; 0 without heights
-    float slopeUnit;   // what the numbers of kBindSlopes are multiplied with: cage units per unit of s and t
+    float heightBound;      // largest |h|, cage units; 0 without heights
+    float slopeUnit;        // what the numbers of kBindSlopes are multiplied with: cage units per unit of s and t
+    float heightTime;       // height functions: seconds,
+    float heightTimeBefore; // the same in the frame that motion is measured from,
+    float heightUnit;       // cage units per unit of positions,
+    float heightStep;       // and how far apart they are evaluated for slopes, in positions
     MapRecord maps[kMostMaps];
 };
 
@@ -90,7 +94,7 @@ struct Targets {
     RELIEF_ADDRESS(Vectors) captured;      // grid_capture.vert: position, 1 on a boundary
     RELIEF_ADDRESS(Vectors) dicedVertices; // as kBindMesh
     RELIEF_ADDRESS(Pairs) dicedTexCoords;
-    RELIEF_ADDRESS(Vectors) dicedTangents; // as kBindMeshTangents
+    RELIEF_ADDRESS(Vectors) dicedTexGradients; // as kBindMeshTexGradients
     RELIEF_ADDRESS(Words) dicedIndices;
     RELIEF_ADDRESS(Floats) layers;       // layers.comp: kLayerChannels floats per pixel
     RELIEF_ADDRESS(Materials) materials; // light.comp with kHasInstances: one per instance
@@ -106,7 +110,7 @@ struct PassInputs {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ModelTables) == 14 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
+static_assert(sizeof(ModelTables) == 18 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
 static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 12);
 static_assert(sizeof(Material) == 20 && sizeof(Targets) == 11 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));

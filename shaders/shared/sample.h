@@ -18,9 +18,9 @@ struct SampleResult {
     vec3 p, pu, pv, puu, puv, pvv; // limit frame by face coordinates
     vec3 n;                        // unit limit normal
     vec2 st;                       // texture coordinates
-    vec2 stu, stv;                 // their derivatives by u and v
+    vec2 stu, stv;                 // their derivatives by u and v; with a height function those of (u,v)
     float h;
-    vec2 gradient; // (h_s, h_t)
+    vec2 gradient; // (h_s, h_t); of a height function (h_u, h_v)
     vec3 q;        // p + h n
     vec3 m;        // unit normal of the displaced surface, as --normal asks
 };

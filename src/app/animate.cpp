@@ -67,7 +67,7 @@ struct Report {
     }
 };
 
-/// Where the frames go, and who is told of warnings.
+/// Where frames are written and warnings are reported.
 struct Sink {
     const Warn& warn;
     std::function<void(const DrawnFrame&)> write;
@@ -223,6 +223,7 @@ Run addAnimate(CLI::App& app) {
                "  relief animate cage.obj --height map.exr --cache walk.mdd --frames 1:48 -o 'walk.{frame:4}.png'\n"
                "  relief animate cage.obj --skin walk.glb --fps 30 -o walk.mp4\n"
                "  relief animate cage.obj --deform \"twist(axis=y, angle=60*sin(pi*t))\" --frames 0:47 -o twist.webp\n"
+               "  relief animate cage.obj --height-function waves --frames 0:47 -o waves.mp4\n"
                "  relief animate cage.obj --height map.exr --turntable 72 -o turn.gif");
     return [args] { return animate(*args); };
 }

@@ -43,7 +43,7 @@ public:
         RenderOptions options{args_.triangles.options};
         options.path = path;
         options.lighting.castsShadows = false;
-        for (const dvec3& p : points_) options.bounds.add(p);
+        options.bounds = computeBounds(points_);
         PathReport report{.path = wordOf(kPaths, path), .triangles = checkTriangles(options)};
         if (canSeeCracks_) report.crackPixels = countCrackPixels(options, shift);
         return report;
@@ -100,14 +100,24 @@ std::optional<Picture> checkPoints(Device& device, const SurfaceModel& model, co
     const NormalKind normal = args.triangles.options.normal;
     const std::vector<SampleResult> results = sampleDevice(device, model, samples.queries, normal);
     const ReferenceSurface reference(object.cage, object.options);
+    std::optional<ReferenceSurface> rest;
+    std::optional<FunctionReference> function;
+    std::vector<FaceHeight> heights;
+    if (object.function) {
+        rest.emplace(object.cage, object.options);
+        if (!object.restPositions.empty()) rest->pose(object.restPositions);
+        function.emplace(device, *object.function, *rest, object.time);
+        heights = function->heights(samples.queries);
+    }
     const std::vector<SampleError> errors =
-        sampleErrors({&reference, object.heightMap(), normal, certificate.diagonal}, samples.queries, results);
+        sampleErrors({&reference, object.heightMap(), normal, certificate.diagonal, heights}, samples.queries, results);
     certificate.frames = summarizeErrors(samples.queries, errors);
     certificate.curvature = reportCurvature(samples, results);
 
     // Where derivatives vanish, and where the map may disagree with itself.
     const std::vector<SampleQuery> corners = cornersOf(object.surface);
     certificate.corners = reportCorners(reference, corners, sampleDevice(device, model, corners, normal));
+    if (function) certificate.seams = reportSeams(object.surface, *rest, *function);
     if (object.height) certificate.seams = reportSeams(object.surface, reference, *object.height);
 
     if (args.heatmap.empty()) return {};
@@ -118,19 +128,23 @@ std::optional<Picture> checkPoints(Device& device, const SurfaceModel& model, co
 // --- the command
 
 /// The heat map is written last, when nothing else has failed.
-Certificate certify(const CheckArgs& args, const LoadedObject& object) {
+Certificate certify(const CheckArgs& args, LoadedObject& object) {
     Device device({.name = args.device});
-    const SurfaceModel model = makeSurfaceModel(device, object);
+    measureFunction(device, object, args.object.height, {{object.time}}, makeWarn(args.output.isQuiet));
+    SurfaceModel model = makeSurfaceModel(device, object);
+    keepRestPose(device, model, object, HeightSpace::absolute);
     const std::vector<Path> paths = choosePaths(args, device.traits());
     Progress progress("checking", 1 + paths.size(), args.output.progress);
 
     Certificate certificate{.cage = args.object.cage,
-                            .height = args.object.height.path,
+                            .height = object.function ? args.object.height.function : args.object.height.path,
                             .device = device.traits().name,
                             .faceCount = object.surface.faces.size(),
                             .isolation = object.options.isolation,
                             .diagonal = summarize(object.cage).bounds.diagonal() / object.coordinates().unit,
-                            .displacementBound = object.height ? object.height->heightBound() : 0,
+                            .displacementBound = object.function ? double(object.function->bound)
+                                                 : object.height ? object.height->heightBound()
+                                                                 : 0,
                             .coordinates = object.coordinates()};
     const std::optional<Picture> heatmap = checkPoints(device, model, object, args, certificate);
     progress.advance();
@@ -152,7 +166,7 @@ int check(const CheckArgs& args) {
         checkHeatmapPath(args.heatmap);
         checkOutput(args.heatmap, listFiles(args.object));
     }
-    const LoadedObject object = load(args.object, CageState::posed, makeWarn(args.output.isQuiet));
+    LoadedObject object = load(args.object, CageState::posed, makeWarn(args.output.isQuiet));
     if (object.dense)
         fail(Failure::usage, "{}: certificates are for subdivision surfaces; name its --scheme", args.object.cage);
     const Certificate certificate = certify(args, object);
@@ -169,11 +183,13 @@ int check(const CheckArgs& args) {
 } // namespace
 
 Run addCheck(CLI::App& app) {
+    // What is certified.
     auto args = std::make_shared<CheckArgs>();
     addObject(app, args->object);
     addTime(app, args->object.motion);
     addPath(app, args->triangles.path, "all that the device can read back");
     addTriangles(app, args->triangles.options);
+    // How closely, and where results go.
     app.add_option("--points", args->pointCount,
                    fmt::format("about how many points are compared with the double-precision reference (default: {})",
                                args->pointCount))

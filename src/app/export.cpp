@@ -40,17 +40,19 @@ EdgeRates computeRates(Device& device, const SurfaceModel& model, const LoadedOb
 
 /// Whatever made the mesh is freed before the mesh is written.
 Exported dice(const ExportArgs& args) {
+    // The object on the host, then on the device.
     Progress progress("dicing", 4, args.output.progress);
     const ObjectDesc& desc = args.scene.object;
-    const LoadedObject object = load(desc, CageState::posed, makeWarn(args.output.isQuiet));
+    LoadedObject object = load(desc, CageState::posed, makeWarn(args.output.isQuiet));
     if (object.dense)
         fail(Failure::usage, "{}: only a subdivision surface can be diced into triangles; name its --scheme",
              desc.cage);
     progress.advance();
 
     Device device({.name = args.device});
+    measureFunction(device, object, desc.height, {{object.time}}, makeWarn(args.output.isQuiet));
     SurfaceModel model = makeSurfaceModel(device, object);
-    stretchHeights(device, model, object, desc.height.space);
+    keepRestPose(device, model, object, desc.height.space);
     progress.advance();
 
     // The size of the mesh is known once it is diced, and checked before it is read back.
@@ -77,6 +79,7 @@ void report(const ExportArgs& args, const Exported& exported) {
     const std::size_t vertexCount = exported.mesh.positions.size(), triangleCount = exported.mesh.indices.size() / 3;
     const std::uint64_t bytes = std::filesystem::file_size(args.target);
     if (args.output.isJson) {
+        // Programs read these names.
         printJson({{"mesh", args.target},
                    {"device", exported.device},
                    {"vertices", vertexCount},
@@ -89,6 +92,7 @@ void report(const ExportArgs& args, const Exported& exported) {
                    {"dice_ms", exported.diceMs},
                    {"write_ms", 1e3 * exported.writeSeconds}});
     } else if (!args.output.isQuiet) {
+        // One line for people, and a second one with the time of every step.
         std::cerr << fmt::format("{}: {} vertices, {} triangles, {}, diced on {}\n", args.target, vertexCount,
                                  triangleCount, humanBytes(bytes), exported.device);
         if (args.output.isVerbose)

@@ -30,7 +30,8 @@ std::vector<int> listFrames(const AnimationArgs& args, const Animation* animatio
     dvec2 range(1, args.turntableCount);
     if (args.turntableCount == 0) {
         if (animation == nullptr)
-            fail(Failure::usage, "{}: nothing moves; name --cache, --skin, --deform or --turntable", object.cage);
+            fail(Failure::usage, "{}: nothing moves; name {}--cache, --skin, --deform or --turntable", object.cage,
+                 object.height.function.empty() ? "" : "the --frames of the height function, ");
         range = animation->keyRange() * object.motion.cache.fps;
         if (!(std::max(std::abs(range.x), std::abs(range.y)) <= kLargestFrame))
             fail(Failure::input, "{}: its keys are from {} to {} seconds; name the --frames{}", motionFile(object),
@@ -52,6 +53,8 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
         polygons_.emplace(object.cage, *object.animation, object.needsTangents);
     }
     frames_ = listFrames(args, object.animation.get());
+    device_ = std::make_unique<Device>(DeviceDesc{.name = args.picture.device});
+    measureFunction(*device_, object, desc.height, measuredTimes(), warn);
     placeScene();
     if (polygons_) object.dense = polygons_->makeMesh(toSeconds(frames_.front(), desc.motion));
     makeModel();
@@ -60,18 +63,29 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
         std::make_unique<Renderer>(*device_, RendererDesc{.width = args.scene.size.x, .height = args.scene.size.y});
 }
 
+/// Times spread evenly over the frames, the first and the last one among them.
+std::vector<double> FrameMaker::measuredTimes() const {
+    constexpr std::size_t kMost = 9;
+    const std::size_t count = std::min(frames_.size(), kMost);
+    std::vector<double> times;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t frame = count > 1 ? i * (frames_.size() - 1) / (count - 1) : 0;
+        times.push_back(toSeconds(frames_[frame], args_.scene.object.motion));
+    }
+    return times;
+}
+
 /// Fixes the camera for all frames: it must not follow the object.
 void FrameMaker::placeScene() {
     const SceneDesc& scene = args_.scene;
     const std::vector<dvec3> points = computeOutlineOfAll(loaded_.object);
-    for (const dvec3& p : points) bounds_.add(p);
+    bounds_ = computeBounds(points);
     camera_ = holdAllPoints(toLocal(loaded_.object.coordinates(), scene.camera), points,
                             double(scene.size.x) / scene.size.y, args_.turntableCount > 0);
 }
 
 void FrameMaker::makeModel() {
     LoadedObject& object = loaded_.object;
-    device_ = std::make_unique<Device>(DeviceDesc{.name = args_.picture.device});
     model_ = std::make_unique<Model>(relief::makeModel(*device_, object));
     environment_ = makeEnvironment(*device_, loaded_);
     if (polygons_)
@@ -94,7 +108,7 @@ void FrameMaker::makeModel() {
     malloc_trim(0);
 }
 
-/// Of the object in the pose that is drawn, or in all poses where the device does not move it.
+/// The box around the object in the pose that is drawn, or in all poses where the device does not move it.
 Bounds FrameMaker::boundsNow() const {
     if (poser_) return poser_->bounds();
     return meshPoser_ ? polygonBounds_ : bounds_;
@@ -128,8 +142,7 @@ void FrameMaker::posePolygons(int frame, DrawnFrame& drawn) {
     if (loaded_.object.needsTangents) tangents = computeTangents(mesh);
     drawn.uploadedBytes = meshPoser_->upload(mesh, tangents ? &*tangents : nullptr);
     drawn.poseMs = 1e3 * (secondsNow() - start);
-    polygonBounds_ = {};
-    for (const vec3& p : mesh.positions) polygonBounds_.add(dvec3(p));
+    polygonBounds_ = computeBounds(mesh.positions);
 }
 
 DrawnFrame FrameMaker::draw(int frame) {
@@ -142,6 +155,8 @@ DrawnFrame FrameMaker::draw(int frame) {
         drawn.poseMs = poser_->stats().milliseconds;
     }
     if (meshPoser_) posePolygons(frame, drawn);
+    if (auto* surface = std::get_if<SurfaceModel>(model_.get()))
+        surface->setTime(toSeconds(frame, args_.scene.object.motion), toSeconds(frame - 1, args_.scene.object.motion));
     const Material material = makeMaterial(args_.scene.object.material, loaded_.object.textureColor);
     drawn.picture = renderer_->render(Instance(*model_, material), optionsAt(frame));
     return drawn;

@@ -42,6 +42,7 @@ public:
     [[nodiscard]] std::string findComplaint(const DrawnFrame& drawn) const;
 
 private:
+    [[nodiscard]] std::vector<double> measuredTimes() const;
     void placeScene();
     void makeModel();
     [[nodiscard]] Bounds boundsNow() const;

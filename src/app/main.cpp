@@ -61,7 +61,7 @@ int run(std::vector<std::string> words) {
         app::requireFiniteNumbers(*verb);
         verbs.emplace_back(command.name);
     }
-    // CLI11 wants the words after the program's name, the last one first.
+    // CLI11 expects the words after the program's name, the last one first.
     words.erase(words.begin());
     try {
         app.parse(std::vector<std::string>(words.rbegin(), words.rend()));

@@ -33,6 +33,31 @@ void addHeights(CLI::App& app, HeightDesc& height) {
            addEnum(app, "--map-format", height.format, kMapFormatChoices, "how the map is stored on the device"));
 }
 
+std::string listNames(const std::vector<std::string>& names) {
+    std::string list;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+    return list;
+}
+
+void addHeightFunction(CLI::App& app, HeightDesc& height) {
+    CLI::Option* function =
+        app.add_option("--height-function", height.function,
+                       "heights by a function instead of a map: a file with float height(vec3 p, vec2 st, float t) in "
+                       "GLSL, or one of " +
+                           listNames(listHeightFunctions()) +
+                           "; p is the point of the smooth surface at rest in cage units, st its texture coordinates, "
+                           "t the time in seconds");
+    for (const char* ofMaps : {"--height", "--channel", "--wrap", "--map-format"})
+        function->excludes(app.get_option(ofMaps));
+    listIn("height", "FILE", function);
+    listIn("height", "X",
+           app.add_option("--height-bound", height.functionBound,
+                          "largest absolute value that the function returns (default: its const float kBound, else it "
+                          "is measured)")
+               ->check(numberIn(0, 1e12))
+               ->needs(function));
+}
+
 void addMotion(CLI::App& app, MotionDesc& motion) {
     const char* group = "pose";
     // Where positions come from: a cache or a skin, and deformers after either.
@@ -75,6 +100,7 @@ void addObject(CLI::App& app, ObjectDesc& object) {
         ->required()
         ->option_text("CAGE");
     addSurfaceOptions(app, object);
+    addHeightFunction(app, object.height);
     addMotion(app, object.motion);
 }
 
@@ -111,7 +137,7 @@ void addHeightValues(CLI::App& app, HeightDesc& height) {
 void addTime(CLI::App& app, MotionDesc& motion) {
     listIn("pose", "T",
            app.add_option("--time", motion.time,
-                          "time in seconds of the pose by --cache, --skin or --deform "
+                          "time in seconds of the pose by --cache, --skin or --deform, and of a height function "
                           "(default: 0)")
                ->check(anyNumber()));
 }

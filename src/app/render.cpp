@@ -26,6 +26,7 @@ struct Drawn {
     Picture picture;
     std::string device;
     std::string mapFormat; ///< empty without a map
+    std::optional<HeightFunction::Costs> function;
     std::string complaint; ///< why there is nothing to see, or empty
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
     std::uint64_t peakDeviceBytes = 0; ///< the most that was allocated on the device while the frame was drawn
@@ -36,29 +37,34 @@ void report(const RenderArgs& args, const Drawn& drawn) {
     const FrameStats& stats = drawn.picture.stats;
     if (args.output.isJson) {
         // Programs read these names: relief bench does.
-        printJson({{"picture", args.target},
-                   {"device", drawn.device},
-                   {"triangles", stats.triangleCount},
-                   {"faces", stats.faceCount},
-                   {"hidden_faces", stats.hiddenFaceCount},
-                   {"draws", stats.drawCount},
-                   {"max_rate", stats.maxRate},
-                   {"cage_bytes", drawn.cageBytes},
-                   {"map_bytes", drawn.mapBytes},
-                   {"map_format", drawn.mapFormat},
-                   {"vertices", stats.vertexCount},
-                   {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
-                   {"device_bytes", drawn.deviceBytes},
-                   {"peak_device_bytes", drawn.peakDeviceBytes},
-                   {"load_ms", 1e3 * drawn.loadSeconds},
-                   {"surface_ms", 1e3 * drawn.surfaceSeconds},
-                   {"table_ms", 1e3 * drawn.tableSeconds},
-                   {"rate_ms", stats.rateMs},
-                   {"dice_ms", stats.diceMs},
-                   {"shadow_ms", stats.shadowMs},
-                   {"color_ms", stats.colorMs},
-                   {"light_ms", stats.lightMs},
-                   {"frame_ms", stats.wallMs}});
+        nlohmann::json all{{"picture", args.target},
+                           {"device", drawn.device},
+                           {"triangles", stats.triangleCount},
+                           {"faces", stats.faceCount},
+                           {"hidden_faces", stats.hiddenFaceCount},
+                           {"draws", stats.drawCount},
+                           {"max_rate", stats.maxRate},
+                           {"cage_bytes", drawn.cageBytes},
+                           {"map_bytes", drawn.mapBytes},
+                           {"map_format", drawn.mapFormat},
+                           {"vertices", stats.vertexCount},
+                           {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
+                           {"device_bytes", drawn.deviceBytes},
+                           {"peak_device_bytes", drawn.peakDeviceBytes},
+                           {"load_ms", 1e3 * drawn.loadSeconds},
+                           {"surface_ms", 1e3 * drawn.surfaceSeconds},
+                           {"table_ms", 1e3 * drawn.tableSeconds},
+                           {"rate_ms", stats.rateMs},
+                           {"dice_ms", stats.diceMs},
+                           {"shadow_ms", stats.shadowMs},
+                           {"color_ms", stats.colorMs},
+                           {"light_ms", stats.lightMs},
+                           {"frame_ms", stats.wallMs}};
+        if (drawn.function)
+            all.update({{"function_compiled", drawn.function->compiledCount},
+                        {"function_cached", drawn.function->cachedCount},
+                        {"function_ms", drawn.function->milliseconds}});
+        printJson(all);
     } else if (!args.output.isQuiet) {
         // One line for people, and a second one with the time of every step.
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
@@ -80,11 +86,16 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
         std::async([&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
     LoadedScene loaded = load(args.scene, CageState::posed, warn);
     progress.advance();
+    std::unique_ptr<Device> opened;
+    if (loaded.object.function) { // what it displaces by is known to the device alone
+        opened = opening.get();
+        measureFunction(*opened, loaded.object, args.scene.object.height, {{loaded.object.time}}, warn);
+    }
     const std::vector<dvec3> points = computeOutline(loaded.object);
     progress.advance();
 
     // What the picture shows, and the model of it.
-    const std::unique_ptr<Device> opened = opening.get();
+    if (!opened) opened = opening.get();
     Device& device = *opened;
     checkFilter(args.picture, device, warn);
     const Coordinates coordinates = loaded.object.coordinates();
@@ -93,10 +104,10 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     options.lighting =
         makeLighting(args.scene.lighting, args.scene.camera.azimuth, environment ? &*environment : nullptr);
     options.camera = makeCamera(args.scene, coordinates, points);
-    for (const dvec3& p : points) options.bounds.add(p);
+    options.bounds = computeBounds(points);
     Model model = makeModel(device, loaded.object);
     SurfaceModel* surface = std::get_if<SurfaceModel>(&model);
-    if (surface != nullptr) stretchHeights(device, *surface, loaded.object, args.scene.object.height.space);
+    if (surface != nullptr) keepRestPose(device, *surface, loaded.object, args.scene.object.height.space);
 
     // From here on the device holds everything that is drawn.
     const LoadedObject& object = loaded.object;
@@ -118,6 +129,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     device.startPeak();
     drawn.picture = renderer.render(Instance(model, material), options);
     drawn.peakDeviceBytes = device.peakBytes();
+    if (surface != nullptr && surface->function) drawn.function = surface->function->costs();
     drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size, coordinates});
     progress.advance();
     checkValidation(device);
@@ -150,6 +162,7 @@ Run addRender(CLI::App& app) {
         "examples:\n"
         "  relief render meshes/torus.obj --height golf.exr -o golf.png\n"
         "  relief render cage.obj --height wrinkles.png --scale 0.05 --albedo skin.png --edge-pixels 1 -o face.png\n"
+        "  relief render meshes/torus.obj --height-function golf --scale 0.5 -o golf.png\n"
         "  relief render cage.obj --show wireframe --rate 8 --size 800,600 --azimuth 45 -o wire.png\n"
         "  relief render dense.obj -o dense.exr");
     return [args] { return render(*args); };

@@ -109,13 +109,15 @@ int sample(const SampleArgs& args) {
     inputs.push_back(args.points);
     checkOutput(args.target, inputs);
     const std::vector<SampleQuery> queries = readPoints(args.points);
-    const LoadedObject object = load(args.object, CageState::posed, makeWarn(args.output.isQuiet));
+    LoadedObject object = load(args.object, CageState::posed, makeWarn(args.output.isQuiet));
     if (object.dense)
         fail(Failure::usage, "{}: points lie on a subdivision surface; name its --scheme", args.object.cage);
 
     // Queries that name no point of the surface are mistakes in their file.
     Device device({.name = args.device});
-    const SurfaceModel model = makeSurfaceModel(device, object);
+    measureFunction(device, object, args.object.height, {{object.time}}, makeWarn(args.output.isQuiet));
+    SurfaceModel model = makeSurfaceModel(device, object);
+    keepRestPose(device, model, object, HeightSpace::absolute);
     std::string text;
     try {
         text = sampleRows(device, model, queries, args, object.coordinates()).takeText();

@@ -1,4 +1,5 @@
-// Pictures in: OpenImageIO decodes, but which of its readers runs and how much memory it may take is decided here.
+// Reading pictures: OpenImageIO decodes them, but this file decides which of its readers is used and how much memory it
+// may take.
 #include "base/base.h"
 
 #include <algorithm>

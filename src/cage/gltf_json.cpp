@@ -66,7 +66,7 @@ struct KnownExtension {
     const char* loss = ""; ///< what is missing where relief ignores it
 };
 
-/// The first one whose beginning fits holds; names that no line has are of a kind that is not known.
+/// The first row whose `beginning` a name starts with applies; a name that fits none is of an unknown kind.
 constexpr KnownExtension kExtensions[] = {
     {"KHR_mesh_quantization", ExtensionKind::read},
     {"KHR_draco_mesh_compression", ExtensionKind::read},

@@ -9,12 +9,12 @@ namespace relief {
 namespace {
 
 /// Sums squares into rms until finish().
-void add(ErrorSummary& summary, double error, const SurfacePlace& place) {
+void add(ErrorSummary& summary, double error, const SurfaceLocation& location) {
     if (!std::isfinite(error)) error = std::numeric_limits<double>::infinity();
     summary.rms += error * error;
     if (error <= summary.max) return;
     summary.max = error;
-    summary.worst = place;
+    summary.worst = location;
 }
 
 void finish(RegionErrors& errors) {
@@ -36,13 +36,15 @@ double farther(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 void checkDisplacement(SampleError& error, const DisplacedFrame& frame, const SampleResult& r,
                        const FrameComparison& with) {
     constexpr double kPoint = 1e-6, kShareOfHeight = 1e-2, kDegrees = 0.1;
-    const double h = r.h;
+    const bool isFunction = !with.heights.empty();
+    const double h = isFunction ? frame.height.h : r.h;
     const double distance = glm::length(frame.limit.p + h * frame.normal - dvec3(r.q));
     error.isMisplaced = !(distance <= kPoint * with.diagonal + kShareOfHeight * std::abs(h));
 
     // h_u = h_s s_u + h_t t_u, and h_v likewise.
     const dvec2 slope(r.gradient), stu = frame.tex.jacobian[0], stv = frame.tex.jacobian[1];
-    const dvec2 dh(slope.x * stu.x + slope.y * stu.y, slope.x * stv.x + slope.y * stv.y);
+    const dvec2 dh = isFunction ? dvec2(frame.height.hs, frame.height.ht)
+                                : dvec2(slope.x * stu.x + slope.y * stu.y, slope.x * stv.x + slope.y * stv.y);
     const DisplacedNormals normals = computeDisplacedNormals(frame.limit, h, dh);
     const dvec3 expected = with.normal == NormalKind::limit        ? frame.normal
                            : with.normal == NormalKind::firstOrder ? normals.firstOrder
@@ -56,8 +58,12 @@ void checkDisplacement(SampleError& error, const DisplacedFrame& frame, const Sa
     error.isMisturned = !(certainty * degreesBetween(expected, dvec3(r.m)) <= kDegrees);
 }
 
-SampleError errorOf(const FrameComparison& with, const SampleQuery& query, const SampleResult& result) {
-    const DisplacedFrame frame = displacedFrame(*with.reference, with.height, int(query.face), dvec2(query.uv));
+SampleError errorOf(const FrameComparison& with, std::size_t number, const SampleQuery& query,
+                    const SampleResult& result) {
+    const int face = int(query.face);
+    const DisplacedFrame frame = with.heights.empty()
+                                     ? displacedFrame(*with.reference, with.height, face, dvec2(query.uv))
+                                     : displacedFrame(*with.reference, with.heights[number], face, dvec2(query.uv));
     const auto distance = [&](const dvec3& a, const vec3& b) { return glm::length(a - dvec3(b)) / with.diagonal; };
     SampleError error{.point = distance(frame.limit.p, result.p),
                       .hasTangentPlane = frame.limit.hasTangentPlane(),
@@ -70,16 +76,16 @@ SampleError errorOf(const FrameComparison& with, const SampleQuery& query, const
     return error;
 }
 
-void add(RegionErrors& errors, const SampleError& error, const SurfacePlace& place) {
+void add(RegionErrors& errors, const SampleError& error, const SurfaceLocation& location) {
     ++errors.count;
-    add(errors.point, error.point, place);
+    add(errors.point, error.point, location);
     if (!error.hasTangentPlane) {
         ++errors.countWithoutNormal;
         return;
     }
-    add(errors.tangent, error.tangent, place);
-    add(errors.limitNormal, error.limitNormal, place);
-    add(errors.normal, error.normal, place);
+    add(errors.tangent, error.tangent, location);
+    add(errors.limitNormal, error.limitNormal, location);
+    add(errors.normal, error.normal, location);
     errors.countMisplaced += error.isMisplaced ? 1 : 0;
     errors.countMisturned += error.isMisturned ? 1 : 0;
 }
@@ -89,9 +95,10 @@ void add(RegionErrors& errors, const SampleError& error, const SurfacePlace& pla
 std::vector<SampleError> sampleErrors(const FrameComparison& with, std::span<const SampleQuery> queries,
                                       std::span<const SampleResult> results) {
     RELIEF_CHECK(results.size() == queries.size());
+    if (!with.heights.empty()) RELIEF_CHECK(with.heights.size() == queries.size());
     std::vector<SampleError> errors;
     errors.reserve(queries.size());
-    for (std::size_t i = 0; i < queries.size(); ++i) errors.push_back(errorOf(with, queries[i], results[i]));
+    for (std::size_t i = 0; i < queries.size(); ++i) errors.push_back(errorOf(with, i, queries[i], results[i]));
     return errors;
 }
 

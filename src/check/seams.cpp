@@ -1,27 +1,42 @@
 // How far the faces along an edge disagree about the height there.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "check/check.h"
 
 namespace relief {
 namespace {
 
-/// Samples along an edge: at least these, then two a texel so that no texel is passed over.
+/// Samples along an edge: at least this many, and two per texel, so that no texel is skipped.
 constexpr int kFewestSteps = 8, kMostSteps = 512;
 
 /// Texture coordinates nearer than this are the same: they come from two patches in double precision.
 constexpr double kSameTexture = 1e-9;
 
+/// Points of edges whose heights are asked for together.
+constexpr std::size_t kPointsAtOnce = 1u << 18;
+
+using FacePoint = std::pair<int, dvec2>;
+
+/// Where heights come from, and how many steps of an edge they need for its texture coordinates at three points.
+struct HeightSource {
+    std::function<std::vector<double>(std::span<const FacePoint>)> heightsAt;
+    std::function<double(const dvec2& stStep)> texels;
+};
+
 class SeamMeter {
 public:
-    SeamMeter(const Surface& surface, const ReferenceSurface& reference, const HeightMap& map)
-        : surface_(surface), reference_(reference), map_(map) {}
+    SeamMeter(const Surface& surface, const ReferenceSurface& reference, HeightSource source)
+        : surface_(surface), reference_(reference), source_(std::move(source)) {}
 
     SeamReport measure() {
         const EdgeIncidences incidences = edgeIncidences(surface_);
-        for (std::size_t edge = 0; edge < surface_.edges.size(); ++edge)
-            if (isSeam(incidences.of(edge))) addEdge(incidences.of(edge));
+        for (std::size_t edge = 0; edge < surface_.edges.size(); ++edge) {
+            if (isSeam(incidences.of(edge))) gather(incidences.of(edge));
+            if (points_.size() > kPointsAtOnce) addGathered();
+        }
+        addGathered();
         if (report_.length > 0) report_.mean /= report_.length;
         return report_;
     }
@@ -49,24 +64,10 @@ private:
         double most = 0;
         for (const Incidence& incidence : incidences) {
             const dvec2 a = textureOf(incidence, 0), b = textureOf(incidence, 0.5), c = textureOf(incidence, 1);
-            most = std::max(most, texels(b - a) + texels(c - b));
+            most = std::max(most, source_.texels(b - a) + source_.texels(c - b));
         }
         return int(std::clamp(std::ceil(2 * most), double(kFewestSteps), double(kMostSteps)));
     }
-    [[nodiscard]] double texels(const dvec2& st) const {
-        return std::max(std::abs(st.x) * map_.width, std::abs(st.y) * map_.height);
-    }
-
-    /// Largest minus smallest height that the faces see.
-    [[nodiscard]] double disagreement(std::span<const Incidence> incidences, double t) const {
-        double lowest = 1e300, highest = -1e300;
-        for (const Incidence& incidence : incidences) {
-            const double h = sampleHeight(map_, textureOf(incidence, t)).h;
-            lowest = std::min(lowest, h), highest = std::max(highest, h);
-        }
-        return highest - lowest;
-    }
-
     [[nodiscard]] double lengthOf(const Incidence& incidence) const {
         constexpr int kPieces = 4;
         const auto at = [&](int i) {
@@ -77,12 +78,40 @@ private:
         return length;
     }
 
+    /// Adds the points of an edge: all faces at each step.
+    void gather(std::span<const Incidence> incidences) {
+        gathered_.push_back({incidences, stepsAlong(incidences)});
+        for (int i = 0; i <= gathered_.back().steps; ++i)
+            for (const Incidence& incidence : incidences)
+                points_.emplace_back(int(incidence.face), pointOf(incidence, double(i) / gathered_.back().steps));
+    }
+
+    void addGathered() {
+        const std::vector<double> heights = source_.heightsAt(points_);
+        std::size_t first = 0;
+        for (const GatheredEdge& edge : gathered_) {
+            const std::size_t count = edge.incidences.size() * std::size_t(edge.steps + 1);
+            addEdge(edge, std::span(heights).subspan(first, count));
+            first += count;
+        }
+        gathered_.clear();
+        points_.clear();
+    }
+
+    struct GatheredEdge {
+        std::span<const Incidence> incidences;
+        int steps = 1;
+    };
+
     /// The trapezoidal rule along the edge; report_.mean sums disagreement times length until measure() ends.
-    void addEdge(std::span<const Incidence> incidences) {
-        const int steps = stepsAlong(incidences);
+    void addEdge(const GatheredEdge& edge, std::span<const double> heights) {
+        const auto& [incidences, steps] = edge;
         double sum = 0;
         for (int i = 0; i <= steps; ++i) {
-            const double t = double(i) / steps, apart = disagreement(incidences, t);
+            // Largest minus smallest height that the faces see.
+            const auto [lowest, highest] =
+                std::ranges::minmax_element(heights.subspan(std::size_t(i) * incidences.size(), incidences.size()));
+            const double t = double(i) / steps, apart = *highest - *lowest;
             sum += i == 0 || i == steps ? 0.5 * apart : apart;
             if (apart > report_.max)
                 report_.max = apart, report_.worst = {incidences.front().face, vec2(pointOf(incidences.front(), t))};
@@ -95,14 +124,31 @@ private:
 
     const Surface& surface_;
     const ReferenceSurface& reference_;
-    const HeightMap& map_;
+    HeightSource source_;
+    std::vector<GatheredEdge> gathered_;
+    std::vector<FacePoint> points_; ///< of these edges
     SeamReport report_;
 };
 
 } // namespace
 
 SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference, const HeightMap& map) {
-    return SeamMeter(surface, reference, map).measure();
+    const auto heightsAt = [&](std::span<const FacePoint> points) {
+        std::vector<double> heights;
+        heights.reserve(points.size());
+        for (const auto& [face, uv] : points) heights.push_back(sampleHeight(map, reference.texture(face, uv).st).h);
+        return heights;
+    };
+    const auto texels = [&](const dvec2& st) {
+        return std::max(std::abs(st.x) * map.width, std::abs(st.y) * map.height);
+    };
+    return SeamMeter(surface, reference, {heightsAt, texels}).measure();
+}
+
+SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference, FunctionReference& function) {
+    const auto heightsAt = [&](std::span<const FacePoint> points) { return function.heightsAt(points); };
+    const auto noTexels = [](const dvec2&) { return 0.0; };
+    return SeamMeter(surface, reference, {heightsAt, noTexels}).measure();
 }
 
 } // namespace relief

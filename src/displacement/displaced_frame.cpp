@@ -90,6 +90,25 @@ DualNumber stretchSince(const LimitFrame& rest, const LimitFrame& now) {
     return stretch.value < kLargestStretch ? stretch : DualNumber{kLargestStretch};
 }
 
+/// The limit surface at a point, not displaced.
+DisplacedFrame frameWithoutHeight(const ReferenceSurface& surface, int face, const dvec2& uv) {
+    DisplacedFrame frame;
+    frame.limit = surface.limit(face, uv);
+    frame.tex = surface.texture(face, uv);
+    frame.normal = frame.firstOrder = frame.full = surface.normal(face, uv);
+    return frame;
+}
+
+/// Fills in the point and the normals. Without a tangent plane the normal has no derivatives: all three normals stay
+/// that of the limit surface.
+void displace(DisplacedFrame& frame, const DualNumber& height) {
+    frame.q = frame.limit.p + height.value * frame.normal;
+    if (!frame.limit.hasTangentPlane()) return;
+    const DisplacedNormals normals = computeDisplacedNormals(frame.limit, height.value, {height.u, height.v});
+    frame.firstOrder = unitOr(normals.firstOrder, frame.normal);
+    frame.full = unitOr(normals.full, frame.normal);
+}
+
 /// The height over the face, by the chain rule through the texture coordinates.
 DualNumber heightOver(const TexFrame& tex, const HeightSample& sample) {
     const dvec2 su = tex.jacobian[0], sv = tex.jacobian[1]; // (s_u, t_u) and (s_v, t_v)
@@ -112,12 +131,8 @@ DisplacedNormals computeDisplacedNormals(const LimitFrame& frame, double h, cons
 DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv,
                               const ReferenceSurface* rest) {
     // The limit surface, and the height by the map alone.
-    const TexFrame tex = surface.texture(face, uv);
-    DisplacedFrame frame;
-    frame.limit = surface.limit(face, uv);
-    frame.tex = tex;
-    frame.normal = frame.firstOrder = frame.full = surface.normal(face, uv);
-    if (map != nullptr) frame.height = sampleHeight(*map, tex.st);
+    DisplacedFrame frame = frameWithoutHeight(surface, face, uv);
+    if (map != nullptr) frame.height = sampleHeight(*map, frame.tex.st);
 
     // How much the surface has grown since the rest pose.
     DualNumber stretch{1};
@@ -127,15 +142,16 @@ DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* 
                       ? stretchSince(before, frame.limit)
                       : stretchAtCorner(rest->areaNormal(face, uv), surface.areaNormal(face, uv));
     }
-    const DualNumber height = stretch * heightOver(tex, frame.height);
+    const DualNumber height = stretch * heightOver(frame.tex, frame.height);
     frame.height.h *= stretch.value, frame.height.hs *= stretch.value, frame.height.ht *= stretch.value;
-    frame.q = frame.limit.p + height.value * frame.normal;
+    displace(frame, height);
+    return frame;
+}
 
-    // Without a tangent plane the normal has no derivatives: all three normals stay that of the limit surface.
-    if (!frame.limit.hasTangentPlane()) return frame;
-    const DisplacedNormals normals = computeDisplacedNormals(frame.limit, height.value, {height.u, height.v});
-    frame.firstOrder = unitOr(normals.firstOrder, frame.normal);
-    frame.full = unitOr(normals.full, frame.normal);
+DisplacedFrame displacedFrame(const ReferenceSurface& surface, const FaceHeight& height, int face, const dvec2& uv) {
+    DisplacedFrame frame = frameWithoutHeight(surface, face, uv);
+    frame.height = {.h = height.h, .hs = height.hu, .ht = height.hv};
+    displace(frame, {height.h, height.hu, height.hv});
     return frame;
 }
 

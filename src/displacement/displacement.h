@@ -51,8 +51,9 @@ HeightSample sampleHeight(const HeightMap& map, const dvec2& st);
 struct SlopeMap {
     int width = 0, height = 0;
     std::uint32_t levelCount = 0;
-    float unit = 1;                    ///< the largest of level 0, cage units per unit of s and t
-    std::vector<std::uint32_t> texels; ///< h_s / unit and h_t / unit as two halves, level after level, rows from the top
+    float unit = 1; ///< the largest of level 0, cage units per unit of s and t
+    std::vector<std::uint32_t>
+        texels; ///< h_s / unit and h_t / unit as two halves, level after level, rows from the top
 };
 SlopeMap computeSlopes(const HeightMap& map);
 
@@ -145,7 +146,7 @@ struct NormalFrame {
     double area = 0;
 };
 
-/// Not finite where the frame has no tangent plane.
+/// Computes the unit normal and its derivatives. Not finite where the frame has no tangent plane.
 NormalFrame computeNormalFrame(const LimitFrame& frame);
 
 /// Normals of q = p + h n, not unit: as long as the area per unit of (u,v).
@@ -153,7 +154,7 @@ struct DisplacedNormals {
     dvec3 firstOrder{0}, full{0};
 };
 
-/// `dh` = (h_u, h_v). Not finite where the frame has no tangent plane.
+/// Computes the normals of q. `dh` = (h_u, h_v). Not finite where the frame has no tangent plane.
 DisplacedNormals computeDisplacedNormals(const LimitFrame& frame, double h, const dvec2& dh);
 
 /// A point of the displaced surface with its three unit normals.
@@ -172,5 +173,13 @@ struct DisplacedFrame {
 /// then, 4 at most.
 DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv,
                               const ReferenceSurface* rest = nullptr);
+
+/// A height and its derivatives by (u,v), cage units.
+struct FaceHeight {
+    double h = 0, hu = 0, hv = 0;
+};
+
+/// The same displaced by a height from elsewhere; hs and ht of DisplacedFrame::height are its derivatives by u and v.
+DisplacedFrame displacedFrame(const ReferenceSurface& surface, const FaceHeight& height, int face, const dvec2& uv);
 
 } // namespace relief

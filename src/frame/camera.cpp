@@ -18,7 +18,11 @@ dvec3 directionAt(double azimuth, double elevation) {
     return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
 }
 
-std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map) {
+ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme) {
+    return {cage, {.scheme = scheme, .isolation = 2}};
+}
+
+std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map, double bound) {
     // A triangle's far half lies outside its domain: fold it back.
     const auto inDomain = [&](dvec2 uv) {
         return surface.sideCount() == 3 && uv.x + uv.y > 1 ? dvec2(1 - uv.x, 1 - uv.y) : uv;
@@ -28,15 +32,17 @@ std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map
     for (int face = 0; face < surface.faceCount(); ++face) {
         if (surface.isHole(face)) continue;
         for (int i = 0; i <= kSteps; ++i)
-            for (int j = 0; j <= kSteps; ++j)
-                points.push_back(displacedFrame(surface, map, face, inDomain(dvec2(i, j) / double(kSteps))).q);
+            for (int j = 0; j <= kSteps; ++j) {
+                const DisplacedFrame frame = displacedFrame(surface, map, face, inDomain(dvec2(i, j) / double(kSteps)));
+                points.push_back(bound > 0 ? frame.q + bound * frame.normal : frame.q);
+                if (bound > 0) points.push_back(frame.q - bound * frame.normal);
+            }
     }
     return points;
 }
 
 Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, double aspect) {
-    Bounds bounds;
-    for (const dvec3& p : points) bounds.add(p);
+    Bounds bounds = computeBounds(points);
     if (bounds.isEmpty()) bounds.add(dvec3(0));
     const double size = std::max(bounds.diagonal(), 1e-6);
 

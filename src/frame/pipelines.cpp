@@ -22,7 +22,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();
     if (row.bendsNormals) {
-        c.hasTangents = pictures.needTangents();
+        c.hasTexGradients = pictures.needTexGradients();
         c.hasSlopes = pictures.slopes.has_value();
         c.normalMap = normalMapConstant(pictures);
     }
@@ -37,31 +37,33 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
 }
 
 std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const {
-    const bool isTriangles = drawn.isTriangles();
     std::vector<Stage> stages;
-    const auto add = [&](VkShaderStageFlagBits stage, const char* file, bool ofTriangles) {
-        stages.push_back(shaderStage(device, stage, file, ofTriangles));
+    const auto add = [&](VkShaderStageFlagBits stage, const char* file, bool ofSurface) {
+        stages.push_back(ofSurface ? shaderStage(device, stage, file, *drawn.surface)
+                                   : shaderStage(device, stage, file));
     };
     if (drawn.surface == nullptr || frame.path == Path::dice) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", false);
     } else if (frame.path == Path::grid) {
-        add(VK_SHADER_STAGE_VERTEX_BIT, "grid.vert", isTriangles);
+        add(VK_SHADER_STAGE_VERTEX_BIT, "grid.vert", true);
     } else {
-        add(VK_SHADER_STAGE_VERTEX_BIT, "patch.vert", isTriangles);
-        add(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", isTriangles);
-        add(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch.tese", isTriangles);
+        add(VK_SHADER_STAGE_VERTEX_BIT, "patch.vert", true);
+        add(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", true);
+        add(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch.tese", true);
     }
     if (const char* fragment = rowOf(pass).fragment) add(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, false);
     return stages;
 }
 
 const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, const Drawn& drawn, DrawPass pass) {
+    // Everything in which two pipelines may differ is part of the key.
     const std::vector<std::uint32_t> constants = constantsOf(frame, drawn, pass).values();
     std::vector<std::uint32_t> key = constants;
     key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.path), drawn.mesh != nullptr, drawn.isTriangles()});
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
 
+    // The fixed state follows from the row of the pass.
     const DrawPassRow& row = rowOf(pass);
     const bool isPatches = drawn.surface != nullptr && frame.path == Path::tessellation;
     GraphicsDesc graphics;
@@ -81,22 +83,24 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, const Drawn& dra
     return pipelines[key] = makeGraphics(device, graphics);
 }
 
-const Pipeline& Renderer::Parts::computePipeline(const char* file, bool isTriangles, const ShaderConstants& constants) {
+const Pipeline& Renderer::Parts::computePipeline(const char* file, const SurfaceModel* surface,
+                                                 const ShaderConstants& constants) {
     const std::vector<std::uint32_t> values = constants.values();
     std::vector<std::uint32_t> key = values;
-    key.push_back(isTriangles ? 1 : 0);
+    key.push_back(surface != nullptr && surface->isTriangles() ? 1 : 0);
     for (const char* letter = file; *letter != 0; ++letter) key.push_back(std::uint32_t(*letter));
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
-    return pipelines[key] =
-               makeCompute(device, {.name = file,
-                                    .stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, isTriangles),
-                                    .constants = values,
-                                    .layout = passLayout(device)});
+    return pipelines[key] = makeCompute(
+               device, {.name = file,
+                        .stage = surface != nullptr ? shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, *surface)
+                                                    : shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file),
+                        .constants = values,
+                        .layout = passLayout(device)});
 }
 
 const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame) {
-    return computePipeline("light.comp", false,
+    return computePipeline("light.comp", nullptr,
                            {.show = frame.technique.constant, .hasInstances = frame.hasInstances()});
 }
 

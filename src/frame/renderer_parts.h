@@ -92,7 +92,8 @@ struct Renderer::Parts {
     ShaderConstants constantsOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
     const Pipeline& pipelineOf(const Frame& frame, const Drawn& drawn, DrawPass pass);
     std::vector<Stage> stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
-    const Pipeline& computePipeline(const char* file, bool isTriangles, const ShaderConstants& constants);
+    /// `surface`: what the shader works on; null for one that works on pixels or a mesh.
+    const Pipeline& computePipeline(const char* file, const SurfaceModel* surface, const ShaderConstants& constants);
     const Pipeline& lightPipeline(const Frame& frame);
 
     // Draws.

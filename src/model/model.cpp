@@ -81,8 +81,10 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     const Surface& surface = *desc.surface;
     RELIEF_CHECK(desc.cagePositions.size() == surface.controlPointCount);
 
-    // Maps first: the bounds of faces need the range of their heights.
-    if (desc.height != nullptr) {
+    // Heights first: the bounds of faces need their range.
+    if (desc.function != nullptr) {
+        setFunction(*desc.function);
+    } else if (desc.height != nullptr) {
         const MapEncoding asFloats;
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         checkMapSize(device, *desc.height, encoding.format);
@@ -103,9 +105,10 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     // Points of the pose that the cage is in, and the bounds of its faces.
     const std::vector<vec3> refined = refinePoints(surface, desc.cagePositions);
     faceTexBoxes = relief::faceTexBoxes(surface);
-    faceHeightBounds = relief::faceHeightBounds(heightPyramid, faceTexBoxes);
+    faceHeightBounds = function ? std::vector<float>(surface.faces.size(), height->heightBound)
+                                : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
     faceBounds = relief::faceBounds(surface, refined, faceHeightBounds);
-    if (enclosesVolume(surface)) {
+    if (enclosesVolume(surface) && !function) { // nothing bounds the slopes of a function
         faceNormals = relief::faceNormals(surface, refined);
         normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
     }
@@ -116,18 +119,34 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     byteCount = device.allocatedBytes() - before;
 }
 
+void SurfaceModel::setFunction(const FunctionHeights& heights) {
+    function = heights.function;
+    height.emplace();
+    height->record.scale = float(heights.scale);
+    height->record.mid = float(heights.mid);
+    height->heightBound = heights.bound;
+    tables.heightUnit = float(heights.unit);
+    tables.heightStep = heights.step;
+    faceHeightRanges = heights.faceRanges;
+}
+
 void SurfaceModel::setPoints(PointSets other) {
     byteCount += other.table.buffer.bytes - points.table.buffer.bytes;
     points = std::move(other);
     normalBounds.clear();
 }
 
-std::vector<vec4> toTexels(const Tangents& tangents) {
+std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents) {
+    RELIEF_CHECK(tangents.ps.size() == mesh.positions.size());
     std::vector<vec4> texels;
     texels.reserve(2 * tangents.ps.size());
     for (std::size_t i = 0; i < tangents.ps.size(); ++i) {
-        texels.emplace_back(tangents.ps[i], 0.0f);
-        texels.emplace_back(tangents.pt[i], 0.0f);
+        // grad s = (p_t x n) / (n . (p_s x p_t)), grad t = (n x p_s) / (n . (p_s x p_t))
+        const vec3 n = glm::normalize(mesh.normals[i]);
+        const vec3 &ps = tangents.ps[i], &pt = tangents.pt[i];
+        const float area = glm::dot(n, glm::cross(ps, pt)), factor = area != 0 ? 1 / area : 0;
+        texels.emplace_back(factor * glm::cross(pt, n), 0.0f);
+        texels.emplace_back(factor * glm::cross(n, ps), 0.0f);
     }
     return texels;
 }
@@ -139,12 +158,12 @@ void uploadDetail(Device& device, const MeshModelDesc& desc, MeshModel& model) {
     if (desc.bump != nullptr) model.pictures.slopes = uploadSlopes(device, *desc.bump);
     if (desc.normalMap != nullptr) model.pictures.normalMap = uploadNormals(device, *desc.normalMap);
     std::vector<vec4> texels;
-    if (model.pictures.needTangents()) {
+    if (model.pictures.needTexGradients()) {
         RELIEF_CHECK(desc.tangents != nullptr);
-        RELIEF_CHECK(desc.tangents->ps.size() == desc.mesh->positions.size());
-        texels = toTexels(*desc.tangents);
+        texels = toTexGradients(*desc.mesh, *desc.tangents);
     }
-    model.tangents = uploadTexels(device, {.name = "mesh tangents"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
+    model.texGradients =
+        uploadTexels(device, {.name = "mesh texture gradients"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "displacement/displacement.h"
+#include "formula/formula.h"
 #include "gpu/gpu.h"
 #include "mesh/mesh.h"
 #include "model/bounds.h"
@@ -18,7 +19,17 @@ namespace relief {
 
 // --- maps ---------------------------------------------------------------------------------------------------------
 
-/// A height map with its mip levels in words of the device (shared/maps.h).
+/// Heights by a function: h = scale * (value - mid) in the unit of positions, where p is in cage units.
+struct FunctionHeights {
+    std::shared_ptr<const HeightFunction> function;
+    double scale = 1, mid = 0;
+    double unit = 1;               ///< cage units per unit of positions
+    float bound = 0;               ///< largest |h|; what is beyond it is clamped to it
+    float step = 0;                ///< between the points that slopes are taken from, in positions
+    std::vector<float> faceRanges; ///< per face: how far its heights differ, for the rates of edges; or empty
+};
+
+/// A height map with its mip levels in words of the device (shared/maps.h), or a function without words.
 struct GpuHeightMap {
     TexelBuffer words;
     MapRecord record{};
@@ -53,7 +64,7 @@ struct ModelPictures {
     std::optional<GpuNormalMap> normalMap;
 
     /// Whether normals are bent or turned in directions along the surface, which vertices have to carry.
-    [[nodiscard]] bool needTangents() const {
+    [[nodiscard]] bool needTexGradients() const {
         return slopes || (normalMap && normalMap->space == NormalSpace::tangent);
     }
     [[nodiscard]] bool needTexCoords() const { return slopes || normalMap; }
@@ -66,17 +77,19 @@ struct ModelPictures {
 struct PointSets {
     TexelBuffer table;
     std::uint32_t now = 0, before = 0; ///< where the pose of this frame begins, and that which motion is measured from
-    std::optional<std::uint32_t> rest; ///< heights stretch with the surface since this pose
+    std::optional<std::uint32_t> rest; ///< the rest pose, where heights depend on it
+    bool stretches = false;            ///< heights stretch with the surface since the rest pose
 };
 
 struct SurfaceModelDesc {
     const Surface* surface = nullptr;
-    std::span<const vec3> cagePositions;   ///< one per vertex of the cage
-    const HeightMap* height = nullptr;     ///< null: the limit surface itself
-    const MapEncoding* encoding = nullptr; ///< of the height map; null: 32-bit floats
-    const HeightMap* bump = nullptr;       ///< heights whose slopes normals show, as far as `height` does not
-    const NormalMap* normalMap = nullptr;  ///< of object space only where the cage never moves
-    const Image* albedo = nullptr;         ///< 3 or more channels, sRGB-encoded values 0..1
+    std::span<const vec3> cagePositions;       ///< one per vertex of the cage
+    const HeightMap* height = nullptr;         ///< null: the limit surface itself
+    const MapEncoding* encoding = nullptr;     ///< of the height map; null: 32-bit floats
+    const FunctionHeights* function = nullptr; ///< instead of a height map
+    const HeightMap* bump = nullptr;           ///< heights whose slopes normals show, as far as `height` does not
+    const NormalMap* normalMap = nullptr;      ///< of object space only where the cage never moves
+    const Image* albedo = nullptr;             ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
 /// A displaced subdivision surface. What its description points to may go away afterwards.
@@ -89,6 +102,7 @@ struct SurfaceModel {
     PointSets points;
     pass::ModelTables tables{}; ///< where records begin; describe() fills in points and maps, Dicer what dicing needs
     std::optional<GpuHeightMap> height;
+    std::shared_ptr<const HeightFunction> function; ///< null: heights are those of a map
     ModelPictures pictures;
     std::uint64_t byteCount = 0; ///< resident on the device: buffers and textures
 
@@ -103,6 +117,7 @@ struct SurfaceModel {
     std::vector<TexBox> faceTexBoxes;     ///< texture coordinates of faces
     std::vector<Bounds> faceBounds;       ///< boxes around faces displaced by level 0 of the map; empty ones for holes
     std::vector<float> faceHeightBounds;  ///< largest |h| on each face in level 0 of the map, cage units
+    std::vector<float> faceHeightRanges;  ///< FunctionHeights::faceRanges
     std::vector<FaceNormals> faceNormals; ///< what bounds of normals are made of for other levels; empty as these
     std::vector<NormalBounds> normalBounds; ///< of displaced faces; empty unless the surface is closed and oriented
     int sideCount = 4;                      ///< of all faces: 4, or 3 of Loop surfaces
@@ -114,14 +129,25 @@ struct SurfaceModel {
     std::shared_ptr<const int> identity = std::make_shared<const int>(0);
 
     [[nodiscard]] bool isTriangles() const { return sideCount == 3; }
-    [[nodiscard]] bool stretches() const { return points.rest.has_value(); }
-    /// Whether it holds the pose that motion is measured from.
-    [[nodiscard]] bool hasMotion() const { return points.before != points.now; }
+    [[nodiscard]] bool stretches() const { return points.stretches; }
+    /// Whether the surface was another one in the frame that motion is measured from.
+    [[nodiscard]] bool hasMotion() const {
+        return points.before != points.now || (function && tables.heightTime != tables.heightTimeBefore);
+    }
     [[nodiscard]] MapFormat mapFormat() const { return height ? height->format : MapFormat::real; }
+
+    /// The time that a height function is given, in seconds, and that of the frame that motion is measured from; 0
+    /// until they are set.
+    void setTime(double seconds, double before) {
+        tables.heightTime = float(seconds), tables.heightTimeBefore = float(before);
+    }
 
     /// Takes another pose's points in place of its own (module pose makes them). Bounds of normals are dropped with the
     /// old pose; those of faces stay until they are set.
     void setPoints(PointSets other);
+
+private:
+    void setFunction(const FunctionHeights& heights);
 };
 
 // --- triangle meshes ----------------------------------------------------------------------------------------------
@@ -138,18 +164,18 @@ struct MeshModelDesc {
 struct MeshModel {
     MeshModel(Device& device, const MeshModelDesc& desc);
 
-    TexelBuffer vertices;  ///< two texels per vertex: position with height, normal
-    TexelBuffer texCoords; ///< per vertex, or empty
-    TexelBuffer tangents;  ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
-    Buffer indices;        ///< three 32-bit indices per triangle
+    TexelBuffer vertices;     ///< two texels per vertex: position with height, normal
+    TexelBuffer texCoords;    ///< per vertex, or empty
+    TexelBuffer texGradients; ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
+    Buffer indices;           ///< three 32-bit indices per triangle
     ModelPictures pictures;
     std::uint32_t vertexCount = 0, triangleCount = 0;
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
 };
 
-/// What MeshModel::tangents holds: p_s and p_t in turn, no slopes.
-std::vector<vec4> toTexels(const Tangents& tangents);
+/// What MeshModel::texGradients holds: the gradients of s and of t along the mesh in turn, and no slopes.
+std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents);
 
 // --- either -------------------------------------------------------------------------------------------------------
 

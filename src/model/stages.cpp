@@ -12,19 +12,31 @@ struct BindingRow {
 
 /// The kinds of set 0's bindings (shared/bindings.h).
 constexpr BindingRow kBindings[] = {
-    {kBindInputs, BindingKind::inputs},        {kBindHeight, BindingKind::words},
-    {kBindAlbedo, BindingKind::image},         {kBindEnvironment, BindingKind::image},
-    {kBindShadow, BindingKind::image},         {kBindRecords, BindingKind::words},
-    {kBindTree, BindingKind::words},           {kBindPoints, BindingKind::floats},
-    {kBindTexPoints, BindingKind::floats},     {kBindEdgeRates, BindingKind::floats},
-    {kBindDrawFaces, BindingKind::words},      {kBindMesh, BindingKind::floats},
-    {kBindMeshTexCoords, BindingKind::floats}, {kBindDiceTable, BindingKind::words},
-    {kBindDiceTiles, BindingKind::words},      {kBindDiceFirsts, BindingKind::words},
-    {kBindLevels, BindingKind::floats},        {kBindEdgeHeights, BindingKind::floats},
-    {kBindDepths, BindingKind::image},         {kBindNormals, BindingKind::image},
-    {kBindColors, BindingKind::image},         {kBindInstances, BindingKind::integerImage},
-    {kBindSlopes, BindingKind::image},         {kBindNormalMap, BindingKind::image},
-    {kBindMeshTangents, BindingKind::floats},
+    {kBindInputs, BindingKind::inputs},
+    {kBindHeight, BindingKind::words},
+    {kBindAlbedo, BindingKind::image},
+    {kBindEnvironment, BindingKind::image},
+    {kBindShadow, BindingKind::image},
+    {kBindRecords, BindingKind::words},
+    {kBindTree, BindingKind::words},
+    {kBindPoints, BindingKind::floats},
+    {kBindTexPoints, BindingKind::floats},
+    {kBindEdgeRates, BindingKind::floats},
+    {kBindDrawFaces, BindingKind::words},
+    {kBindMesh, BindingKind::floats},
+    {kBindMeshTexCoords, BindingKind::floats},
+    {kBindDiceTable, BindingKind::words},
+    {kBindDiceTiles, BindingKind::words},
+    {kBindDiceFirsts, BindingKind::words},
+    {kBindLevels, BindingKind::floats},
+    {kBindEdgeHeights, BindingKind::floats},
+    {kBindDepths, BindingKind::image},
+    {kBindNormals, BindingKind::image},
+    {kBindColors, BindingKind::image},
+    {kBindInstances, BindingKind::integerImage},
+    {kBindSlopes, BindingKind::image},
+    {kBindNormalMap, BindingKind::image},
+    {kBindMeshTexGradients, BindingKind::floats},
 };
 static_assert(std::size(kBindings) == kBindCount);
 
@@ -75,7 +87,9 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdIsPlaced] = isPlaced;
     values[kIdHasInstances] = hasInstances;
     values[kIdEntries] = entryCount;
-    values[kIdHasTangents] = hasTangents;
+    values[kIdHeightFunction] = heightFunction;
+    values[kIdReadsRest] = readsRest;
+    values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
     return values;
@@ -88,7 +102,9 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),
             .hasWideIndices = model.hasWideIndices,
-            .hasStraightCorners = model.hasStraightCorners};
+            .hasStraightCorners = model.hasStraightCorners,
+            .heightFunction = model.function ? model.function->number() : 0,
+            .readsRest = model.points.rest.has_value()};
 }
 
 ShaderConstants constantsOf(const MeshModel& model) { return {.hasTexCoords = model.hasTexCoords, .isMesh = true}; }
@@ -109,6 +125,15 @@ PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::u
 
 Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles) {
     return {stage, shaderCode(file, isTriangles, device.traits().readsTablesAs)};
+}
+
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, const SurfaceModel& model) {
+    if (model.function) {
+        const std::span<const std::uint32_t> code =
+            model.function->shader(file, model.isTriangles(), device.traits().readsTablesAs);
+        if (!code.empty()) return {stage, code};
+    }
+    return shaderStage(device, stage, file, model.isTriangles());
 }
 
 PipelineLayoutDesc passLayout(const Device& device) {
@@ -164,7 +189,7 @@ void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindi
     if (model.height) {
         inputs.model.maps[0] = model.height->record;
         inputs.model.heightBound = model.height->heightBound;
-        bindings[kBindHeight] = model.height->words.binding();
+        if (!model.function) bindings[kBindHeight] = model.height->words.binding();
     }
     describePictures(model.pictures, inputs, bindings);
 }
@@ -174,7 +199,7 @@ void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings
     bindings[kBindMesh] = model.vertices.binding();
     bindings[kBindMeshTexCoords] = model.texCoords.binding();
     describePictures(model.pictures, inputs, bindings);
-    bindings[kBindMeshTangents] = model.tangents.binding();
+    bindings[kBindMeshTexGradients] = model.texGradients.binding();
 }
 
 } // namespace relief

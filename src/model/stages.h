@@ -27,8 +27,10 @@ struct ShaderConstants {
     std::uint32_t pass = kPassSurface;
     bool isMesh = false, isPlaced = false, hasInstances = false;
     std::uint32_t entryCount = 0; ///< kIdEntries
-    bool hasTangents = false, hasSlopes = false;
+    bool hasTexGradients = false, hasSlopes = false;
     std::uint32_t normalMap = kNormalMapNone;
+    std::uint32_t heightFunction = 0; ///< HeightFunction::number()
+    bool readsRest = false;
 
     /// One value per id, in the order of ids.
     [[nodiscard]] std::vector<std::uint32_t> values() const;
@@ -51,6 +53,9 @@ PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::u
 
 /// SPIR-V of a stage for this device's way of reading tables, for faces with four sides or three.
 Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles = false);
+/// SPIR-V of a stage that works on a surface, with the surface's height function if it has one. It lives as long as
+/// that.
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, const SurfaceModel& model);
 
 // --- set 0 ---------------------------------------------------------------------------------------------------------
 

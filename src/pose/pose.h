@@ -58,7 +58,7 @@ struct PoserDesc {
     const Surface* surface = nullptr; ///< of the model; may go away afterwards, as the rig
     const Rig* rig = nullptr;         ///< null: poses are positions
     HeightSpace heightSpace = HeightSpace::absolute;
-    std::span<const vec3> restPositions; ///< of the cage: what stretch measures from
+    std::span<const vec3> restPositions; ///< of the cage: what stretch measures from, and height functions are given
     bool keepsBefore = false;            ///< a second pose beside the first: motion between the two
 };
 

@@ -5,13 +5,16 @@ namespace relief {
 
 SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
     RELIEF_CHECK(!object.dense.has_value());
-    return SurfaceModel(device, {.surface = &object.surface,
-                                 .cagePositions = object.cage.positions,
-                                 .height = object.heightMap(),
-                                 .encoding = &object.heightEncoding,
-                                 .bump = object.bumpMap(),
-                                 .normalMap = object.normalMap ? &*object.normalMap : nullptr,
-                                 .albedo = object.albedo ? &*object.albedo : nullptr});
+    SurfaceModel model(device, {.surface = &object.surface,
+                                .cagePositions = object.cage.positions,
+                                .height = object.heightMap(),
+                                .encoding = &object.heightEncoding,
+                                .function = object.functionHeights(),
+                                .bump = object.bumpMap(),
+                                .normalMap = object.normalMap ? &*object.normalMap : nullptr,
+                                .albedo = object.albedo ? &*object.albedo : nullptr});
+    model.setTime(object.time, object.time);
+    return model;
 }
 
 Model makeModel(Device& device, const LoadedObject& object) {
@@ -26,8 +29,9 @@ Model makeModel(Device& device, const LoadedObject& object) {
     return MeshModel(device, desc);
 }
 
-void stretchHeights(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {
-    if (space == HeightSpace::absolute || object.restPositions.empty() || !object.height) return;
+void keepRestPose(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {
+    const bool stretches = space == HeightSpace::stretch && model.height.has_value();
+    if (object.restPositions.empty() || !(stretches || object.function)) return;
     Poser poser(device, model,
                 {.surface = &object.surface, .heightSpace = space, .restPositions = object.restPositions});
     poser.pose({.positions = object.cage.positions, .joints = {}, .morphWeights = {}});

@@ -28,6 +28,14 @@ Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
 /// What cannot work together, whatever the files hold.
 void checkUse(const ObjectDesc& desc, bool isDense) {
     const Detail detail = desc.height.detail;
+    if (!desc.height.function.empty() && (detail == Detail::bump || detail == Detail::both))
+        fail(Failure::usage, "{}: --detail {} takes its slopes from a height map; a function displaces",
+             desc.height.function, wordOf(kDetails, detail));
+    if (isDense && !desc.height.function.empty())
+        fail(Failure::usage,
+             "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
+             "catmark, loop or bilinear",
+             desc.cage);
     if (isDense && !desc.height.path.empty() && (detail == Detail::displacement || detail == Detail::both))
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
@@ -36,9 +44,12 @@ void checkUse(const ObjectDesc& desc, bool isDense) {
 }
 
 void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) {
-    if (desc.motion.time && !object.animation)
-        fail(Failure::usage, "{}: --time asks for a pose; say what moves the cage: --cache, --skin or --deform",
+    if (desc.motion.time && !object.animation && !object.function)
+        fail(Failure::usage,
+             "{}: --time asks for a pose; say what moves the cage: --cache, --skin, --deform or a "
+             "--height-function",
              desc.cage);
+    object.time = desc.motion.time.value_or(0);
     if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
 }
 
@@ -60,6 +71,7 @@ void splitForTangents(LoadedObject& object) {
 std::vector<std::string> listFiles(const ObjectDesc& object) {
     return {object.cage,
             object.height.path,
+            object.height.function,
             object.motion.cachePath,
             object.motion.skinPath,
             object.material.albedo,
@@ -93,6 +105,8 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
         object.detail = desc.height.detail;
         fitUnitToHeights(object, warn);
     }
+    if (!desc.height.function.empty())
+        object.function = loadFunction(desc, object.cage), object.detail = desc.height.detail;
     object.animation = loadAnimation(desc.motion, object.cage, warn);
 
     // Point caches and skins fit the cage as it is in its file, so that it is welded after them.

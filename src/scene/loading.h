@@ -8,6 +8,9 @@ namespace relief {
 /// Reads the height map of an object. Warns of a cage without texture coordinates, and as warnOutsideMap does.
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn);
 
+/// Reads and compiles the height function of an object. Its bounds are not known yet.
+FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage);
+
 /// Reads a color map. Throws Failure::input for fewer than 3 channels and for texels that are not finite; warns where
 /// the file has several layers and where values are clamped to 0..1.
 Image loadAlbedo(const std::string& path, const Warn& warn);
@@ -30,7 +33,7 @@ void fitUnitToHeights(LoadedObject& object, const Warn& warn);
 /// Joins the vertices of a cage and of what moves it. Throws Failure::usage when no face is left.
 void weldObject(LoadedObject& object, const Distance& distance);
 
-/// Warns of a surface that is open between vertices at one place.
+/// Warns of a surface that is open between vertices at the same position.
 void warnOfCoincidentVertices(const Cage& cage, const std::string& path, const Warn& warn);
 
 /// Warns of subdivision tags on polygons that are drawn themselves without being asked for.

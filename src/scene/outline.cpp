@@ -3,13 +3,10 @@
 namespace relief {
 namespace {
 
-constexpr int kCoarseIsolation = 2; ///< enough for framing
-
 std::vector<dvec3> positionsOf(const std::vector<vec3>& positions) { return {positions.begin(), positions.end()}; }
 
-ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme) {
-    return {cage, {.scheme = scheme, .isolation = kCoarseIsolation}};
-}
+/// Of heights by a function, which no map tells.
+double boundOf(const LoadedObject& object) { return object.function ? object.function->bound : 0; }
 
 std::vector<vec3> positionsAt(const Animation& animation, double seconds) {
     return posedPositions(animation.rig(), animation.pose(seconds));
@@ -23,7 +20,7 @@ std::vector<dvec3> computeOutline(const Cage& cage, Scheme scheme, const HeightM
 
 std::vector<dvec3> computeOutline(const LoadedObject& object) {
     if (object.dense) return positionsOf(object.dense->positions);
-    return computeOutline(object.cage, object.options.scheme, object.heightMap());
+    return outline(makeCoarseSurface(object.cage, object.options.scheme), object.heightMap(), boundOf(object));
 }
 
 std::vector<dvec3> computeOutlineAt(const Cage& cage, Scheme scheme, const Animation* animation, double seconds) {
@@ -46,7 +43,7 @@ std::vector<dvec3> computeOutlineOfAll(const LoadedObject& object) {
         std::vector<dvec3> more = positionsOf(posed);
         if (coarse) {
             coarse->pose(posed);
-            more = outline(*coarse, object.heightMap());
+            more = outline(*coarse, object.heightMap(), boundOf(object));
         }
         points.insert(points.end(), more.begin(), more.end());
     }

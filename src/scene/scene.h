@@ -23,9 +23,12 @@ struct Distance {
     [[nodiscard]] double cageUnits(double diagonal) const { return isShare ? value * diagonal : value; }
 };
 
-/// A height map as HeightOptions describes it. The path is empty where nothing displaces the surface.
+/// A height map as HeightOptions describes it, or a height function. Both are empty where nothing displaces the
+/// surface.
 struct HeightDesc {
     std::string path;
+    std::string function;                ///< readHeightFunction
+    std::optional<double> functionBound; ///< largest absolute value of the function, in place of its own kBound
     std::optional<double> mid, scale;
     std::string channel;
     std::optional<Wrap> wrap; ///< default: repeat, with a warning where texture coordinates leave 0..1
@@ -99,7 +102,9 @@ struct LoadedObject {
     Surface surface;
     std::optional<HeightMap> height; ///< as the device reads it
     Detail detail = Detail::displacement;
-    MapEncoding heightEncoding; ///< how the device stores it
+    MapEncoding heightEncoding;              ///< how the device stores it
+    std::optional<FunctionHeights> function; ///< instead of `height`; measureFunction() fills in its bounds
+    double time = 0;                         ///< seconds, of the pose
     std::optional<Image> albedo;
     std::optional<vec3> textureColor; ///< linear, multiplies an albedo that the cage's own file names
     std::optional<NormalMap> normalMap;
@@ -110,11 +115,15 @@ struct LoadedObject {
     [[nodiscard]] const HeightMap* heightMap() const {
         return height && (detail == Detail::displacement || detail == Detail::both) ? &*height : nullptr;
     }
+    /// The function that moves the surface, or null.
+    [[nodiscard]] const FunctionHeights* functionHeights() const {
+        return function && detail != Detail::none ? &*function : nullptr;
+    }
     /// The heights that bend its normals, or null.
     [[nodiscard]] const HeightMap* bumpMap() const {
         return height && (detail == Detail::bump || detail == Detail::both) ? &*height : nullptr;
     }
-    /// Of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
+    /// Coordinates of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
     [[nodiscard]] const Coordinates& coordinates() const;
 };
 
@@ -137,8 +146,8 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
 /// Joins boundary vertices of a cage that nothing moves. Throws Failure::usage when no face is left.
 Cage weldCage(Cage cage, const std::optional<Distance>& distance);
 
-/// For a cage some of whose faces lack texture coordinates: throws Failure::input when one of `maps`, which need them,
-/// is not empty, else warns.
+/// Checks a cage some of whose faces lack texture coordinates. Throws Failure::input when one of `maps`, which need
+/// them, is not empty, else warns.
 void checkTexCoords(const Cage& cage, const std::vector<std::string>& maps, const Warn& warn);
 
 // --- motion -------------------------------------------------------------------------------------------------------
@@ -167,15 +176,25 @@ Model makeModel(Device& device, const LoadedObject& object);
 /// Throws Failure::internal for polygons that are drawn themselves.
 SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object);
 
-/// Where heights stretch with a cage that load() has posed, they are the device's to compute: poses the model there.
-/// Does nothing where heights are absolute or the cage is at rest.
-void stretchHeights(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space);
+/// Where heights depend on the rest pose of a cage that load() has posed (they stretch with it, or a function gives
+/// them), they are the device's to compute: poses the model there. Does nothing elsewhere.
+void keepRestPose(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space);
+
+// --- height functions ---------------------------------------------------------------------------------------------
+
+/// Evaluates the object's height function, if it has one, at points all over its surface at rest and at the times given
+/// in seconds. Sets its bound (the stated one, or a quarter more than the largest height that was found, with a
+/// warning) and the ranges of heights on faces. Throws Failure::input for a value that is not finite or larger than the
+/// function states, Failure::device for a function whose loops do not end, each with the face and (u,v); Failure::usage
+/// for heights too large for the cage.
+void measureFunction(Device& device, LoadedObject& object, const HeightDesc& desc, std::span<const double> times,
+                     const Warn& warn);
 
 // --- camera and light ---------------------------------------------------------------------------------------------
 
 /// Points that outline the displaced surface of a cage, by a coarse reference surface. Cage coordinates.
 std::vector<dvec3> computeOutline(const Cage& cage, Scheme scheme, const HeightMap* map);
-/// Points that outline an object as it is loaded.
+/// Points that outline an object as it is loaded; with a height function after measureFunction().
 std::vector<dvec3> computeOutline(const LoadedObject& object);
 /// Points that outline the smooth surface of a cage, without heights, at one time of its animation; null: as it stands.
 std::vector<dvec3> computeOutlineAt(const Cage& cage, Scheme scheme, const Animation* animation, double seconds);
@@ -189,8 +208,8 @@ CameraOptions toLocal(const Coordinates& coordinates, const CameraOptions& world
 /// The camera of a scene; `points` outline the object, in its coordinates as the camera is then.
 Camera makeCamera(const SceneDesc& scene, const Coordinates& coordinates, std::span<const dvec3> points);
 
-/// The same options, with a point to look at and a distance from which all points are seen, from all sides of a turn if
-/// it is one. Options and points are in the object's coordinates.
+/// Completes options with a point to look at and a distance from which all points are seen, for a turntable from all
+/// its sides. Options and points are in the object's coordinates.
 CameraOptions holdAllPoints(const CameraOptions& options, std::span<const dvec3> points, double aspect, bool isTurn);
 
 /// The camera of options whose point to look at and distance are set, its depths fitted to the box around the object.
@@ -198,7 +217,7 @@ Camera placeCamera(const CameraOptions& options, const Bounds& bounds);
 
 /// `azimuth`: the camera's, degrees; the default key light follows it. `environment`: null for the built-in studio.
 Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment);
-/// The environment of a scene on the device; nothing where it has none of its own.
+/// Uploads the environment of a scene; empty where it has none of its own.
 std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded);
 /// `textureColor`: LoadedObject's.
 Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor = {});

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
+#include "base/clock.h"
 #include "shared/dice.h"
 #include "shared/rates.h"
 #include "triangles/dice_table.h"
@@ -12,8 +12,11 @@ namespace relief {
 namespace {
 
 constexpr std::uint32_t kTileSamples = 1024; ///< of the insides of faces: enough for one load of control points
-constexpr std::uint64_t kVertexBytes = 32;   ///< position and height, normal
-constexpr std::uint64_t kTangentBytes = 32;
+/// With a height function. Mesa 22.3's CPU driver gives all loops of an invocation together 65,535 turns: those over
+/// the samples of a tile are to leave kMostFunctionTurns for each evaluation.
+constexpr std::uint32_t kFunctionTileSamples = 64;
+constexpr std::uint64_t kVertexBytes = 32; ///< position and height, normal
+constexpr std::uint64_t kTexGradientBytes = 32;
 
 std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
 
@@ -91,10 +94,7 @@ private:
     }
 
     void addTriangleInside(std::uint32_t face, std::uint32_t n) {
-        const std::uint32_t rows = std::max(kTileSamples / (n - 2), 1u);
-        for (std::uint32_t j = 1; j <= n - 2; j += rows)
-            work_.insides.push_back({face, 0, packed(1, j), packed(n - 2, std::min(rows, n - 1 - j)), packed(n, n), 0,
-                                     0, std::uint32_t(work_.vertexCount)});
+        addTiles({face, 0, 0, 0, packed(n, n), 0, 0, std::uint32_t(work_.vertexCount)}, {1, 1}, {n - 1, n - 1});
         work_.vertexCount += std::uint64_t(n - 1) * (n - 2) / 2;
     }
 
@@ -106,18 +106,28 @@ private:
                                 i1 = firstSample(leaf.u + 1, leaf.depth, m, f.rateU);
             const std::uint32_t j0 = firstSample(leaf.v, leaf.depth, n, f.rateV),
                                 j1 = firstSample(leaf.v + 1, leaf.depth, n, f.rateV);
-            if (i0 >= i1) continue;
-            const std::uint32_t rows = std::max(kTileSamples / (i1 - i0), 1u);
-            for (std::uint32_t j = j0; j < j1; j += rows)
-                work_.insides.push_back({face, leaf.patchIndex, packed(i0, j), packed(i1 - i0, std::min(rows, j1 - j)),
-                                         packed(m, n), leaf.depth, packed(leaf.u, leaf.v),
-                                         std::uint32_t(work_.vertexCount)});
+            addTiles({face, leaf.patchIndex, 0, 0, packed(m, n), leaf.depth, packed(leaf.u, leaf.v),
+                      std::uint32_t(work_.vertexCount)},
+                     {i0, j0}, {i1, j1});
         }
         work_.vertexCount += std::uint64_t(m - 1) * (n - 1);
     }
 
     [[nodiscard]] bool isRegular(const InsideTile& tile) const {
         return !model_.isTriangles() && model_.patchIsRegular[tile.patchIndex];
+    }
+
+    /// Tiles of the samples from `first` up to `end`, as wide as possible.
+    void addTiles(InsideTile tile, const uvec2& first, const uvec2& end) {
+        if (first.x >= end.x) return;
+        const std::uint32_t most = model_.function ? kFunctionTileSamples : kTileSamples;
+        const std::uint32_t columns = std::min(end.x - first.x, most), rows = std::max(most / columns, 1u);
+        for (std::uint32_t j = first.y; j < end.y; j += rows)
+            for (std::uint32_t i = first.x; i < end.x; i += columns) {
+                tile.firstIJ = packed(i, j);
+                tile.sizeIJ = packed(std::min(columns, end.x - i), std::min(rows, end.y - j));
+                work_.insides.push_back(tile);
+            }
     }
 
     /// The first inner sample at or past cell / 2^depth, at most n.
@@ -190,14 +200,15 @@ Dicer::~Dicer() = default;
 namespace {
 
 std::uint64_t byteCountOf(const Work& work, const DiceOptions& options) {
-    const std::uint64_t vertexBytes =
-        kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) + (options.wantsTangents ? kTangentBytes : 0);
+    const std::uint64_t vertexBytes = kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) +
+                                      (options.wantsTexGradients ? kTexGradientBytes : 0);
     return work.vertexCount * vertexBytes + work.triangleCount * 12;
 }
 
 /// The buffers of a mesh, not written yet, and what is known of it beforehand.
 DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& options) {
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    // Texture coordinates are an empty table where nothing reads them.
     DicedMesh mesh;
     mesh.vertices =
         makeTexels(device, {.name = "diced vertices", .bytes = work.vertexCount * kVertexBytes, .usage = usage},
@@ -207,14 +218,16 @@ DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& opti
                                  .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
                                  .usage = usage},
                                 VK_FORMAT_R32G32_SFLOAT);
-    mesh.tangents = makeTexels(device,
-                               {.name = "diced tangents",
-                                .bytes = options.wantsTangents ? work.vertexCount * kTangentBytes : 0,
-                                .usage = usage},
-                               VK_FORMAT_R32G32B32A32_SFLOAT);
+    mesh.texGradients = makeTexels(device,
+                                   {.name = "diced texture gradients",
+                                    .bytes = options.wantsTexGradients ? work.vertexCount * kTexGradientBytes : 0,
+                                    .usage = usage},
+                                   VK_FORMAT_R32G32B32A32_SFLOAT);
     mesh.indices = makeBuffer(
         device,
         {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
+
+    // Known before anything is diced.
     mesh.firstTriangles = work.firstTriangles;
     mesh.faceRates = work.faceRates;
     mesh.runFirsts = work.runFirsts;
@@ -279,12 +292,12 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     // What they write.
     inputs.targets.dicedVertices = mesh.vertices.buffer.address;
     inputs.targets.dicedTexCoords = mesh.texCoords.buffer.address;
-    inputs.targets.dicedTangents = mesh.tangents.buffer.address;
+    inputs.targets.dicedTexGradients = mesh.texGradients.buffer.address;
     inputs.targets.dicedIndices = mesh.indices.address;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
-    constants.hasTangents = options.wantsTangents;
+    constants.hasTexGradients = options.wantsTexGradients;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
     Passes passes = passesOf(work, table, firstRing, firstCell);
@@ -305,7 +318,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
 }
 
 double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& set, const PassInputs& inputs) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = secondsNow();
     device.submitAndWait([&](VkCommandBuffer commands) {
         timer.reset(commands);
         resources.write(commands, inputs);
@@ -327,8 +340,7 @@ double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& s
     // Mesa's CPU driver stamps both times when it rasterizes, after all dispatches: the clock of the host serves
     // instead.
     const std::vector<double> times = timer.intervals();
-    if (device.traits().isCpu)
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    if (device.traits().isCpu) return 1e3 * (secondsNow() - start);
     return times.empty() ? 0 : times[0];
 }
 

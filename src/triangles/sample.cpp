@@ -31,6 +31,8 @@ SurfaceSampler::~SurfaceSampler() = default;
 std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std::span<const SampleQuery> queries,
                                                  const SampleOptions& options) {
     for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], options.firstRow + i);
+
+    // What the shader reads and writes.
     Device& device = parts_->device;
     const Buffer in = uploadArray(device, "queries", queries);
     std::vector<SampleResult> results(queries.size());
@@ -44,6 +46,7 @@ std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std:
     inputs.targets.sampleQueries = in.address;
     inputs.targets.sampleResults = out.address;
 
+    // One invocation per query.
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.isGenericBasis = options.isGenericBasis;
     constants.wantsTexCoords = true;
@@ -58,6 +61,9 @@ std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std:
         download.record(commands, out);
     });
     std::ranges::copy(download.bytes(), std::as_writable_bytes(std::span(results)).begin());
+    // A function's slopes are those by (u,v) already, which the derivatives of texture coordinates must not turn.
+    if (model.function)
+        for (SampleResult& result : results) result.stu = {1, 0}, result.stv = {0, 1};
     return results;
 }
 

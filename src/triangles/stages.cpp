@@ -7,7 +7,7 @@ const Pipeline& ComputeStages::pipeline(const char* file, const SurfaceModel& mo
     key.second.push_back(model.isTriangles());
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
-    const Stage stage = shaderStage(device_, VK_SHADER_STAGE_COMPUTE_BIT, file, model.isTriangles());
+    const Stage stage = shaderStage(device_, VK_SHADER_STAGE_COMPUTE_BIT, file, model);
     return pipelines_[key] = makeCompute(
                device_, {.name = file, .stage = stage, .constants = constants.values(), .layout = passLayout(device_)});
 }

@@ -172,7 +172,7 @@ TEST(Usage, wordsWithLineBreaksStillMakeOneLine) {
     expectRefused(relief({"info", "x", "--two\nlines"}), Failure::usage, {"lines"});
 }
 
-// Only the device knows how far its tessellator goes; the grid goes further.
+// The tessellator's limit is a property of the device; the grid's is higher.
 TEST(Usage, ratesThatThePathCannotDoAreRefusedWithTheRange) {
     const TemporaryFolder folder;
     const Words words = {"render", cagePath("cube"), "--size", "64,64", "-o", folder / "a.png"};

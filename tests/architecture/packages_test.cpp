@@ -23,6 +23,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"Eigen3", "libeigen3-dev"},
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
+    {"glslang", "glslang-dev"},
     {"glm/glm.hpp", "libglm-dev"},
     {"tiny_gltf.h", "libtinygltf-dev"},
     {"OpenImageIO/imageio.h", "libopenimageio-dev"},

@@ -54,7 +54,8 @@ Names functionsWithoutCall(const std::string& shaders, const std::string& shared
 TEST(Shaders, haveNoFunctionWithoutACall) {
     std::vector<Line> shaders, shared;
     for (const Line& line : linesBelow(kProject, "shaders"))
-        (line.file.starts_with("shaders/shared/") ? shared : shaders).push_back(line);
+        if (!line.file.starts_with("shaders/functions/")) // their height() is called where they are compiled into
+            (line.file.starts_with("shaders/shared/") ? shared : shaders).push_back(line);
     ASSERT_GT(shaders.size(), 1500u);
     ASSERT_GT(shared.size(), 300u);
     for (const std::string& name :

@@ -1,0 +1,119 @@
+#include <atomic>
+#include <chrono>
+#include <map>
+#include <set>
+
+#include "formula/shader_cache.h"
+#include "formula/sources.h"
+
+namespace relief {
+namespace {
+
+constexpr std::string_view kBuiltInFolder = "functions/", kExtension = ".glsl";
+
+/// Whether a file of shaders/ includes the function, or one that it includes does.
+bool evaluatesHeights(std::string_view file, std::set<std::string_view>& seen) {
+    if (file == "height_function.glsl") return true;
+    const ShaderSource* source = findShaderSource(file);
+    if (source == nullptr || !seen.insert(file).second) return false;
+    constexpr std::string_view kInclude = "#include \"";
+    for (std::size_t at = source->text.find(kInclude); at != std::string_view::npos;
+         at = source->text.find(kInclude, at)) {
+        at += kInclude.size();
+        if (evaluatesHeights(source->text.substr(at, source->text.find('"', at) - at), seen)) return true;
+    }
+    return false;
+}
+
+bool evaluatesHeights(std::string_view file) {
+    std::set<std::string_view> seen;
+    return evaluatesHeights(file, seen);
+}
+
+} // namespace
+
+std::vector<std::string> listHeightFunctions() {
+    std::vector<std::string> names;
+    for (const ShaderSource& source : shaderSources())
+        if (source.name.starts_with(kBuiltInFolder))
+            names.emplace_back(source.name.substr(kBuiltInFolder.size(),
+                                                  source.name.size() - kBuiltInFolder.size() - kExtension.size()));
+    return names;
+}
+
+FunctionText readHeightFunction(const std::string& nameOrPath) {
+    const ShaderSource* source = findShaderSource(fmt::format("{}{}{}", kBuiltInFolder, nameOrPath, kExtension));
+    if (source != nullptr) return {nameOrPath, std::string(source->text)};
+    FunctionText function{nameOrPath, readFile(nameOrPath, kMostFunctionBytes)};
+    if (function.text.starts_with("\xef\xbb\xbf")) function.text.erase(0, 3); // a byte-order mark
+    return function;
+}
+
+struct HeightFunction::Parts {
+    FunctionText function;
+    IsolatedText isolated;
+    std::uint32_t number = 0;
+    std::map<ShaderRequest, std::vector<std::uint32_t>> shaders;
+    Costs costs;
+
+    std::span<const std::uint32_t> shader(const ShaderRequest& request);
+    [[nodiscard]] Digest digestOf(const ShaderRequest& request) const;
+};
+
+HeightFunction::HeightFunction(FunctionText text) : parts_(std::make_unique<Parts>()) {
+    static std::atomic<std::uint32_t> lastNumber{0};
+    parts_->number = ++lastNumber;
+    parts_->function = std::move(text);
+    parts_->isolated = isolate(parts_->function);
+    parts_->shader({});
+}
+
+HeightFunction::~HeightFunction() = default;
+
+/// Of everything that decides what the compiler makes.
+Digest HeightFunction::Parts::digestOf(const ShaderRequest& request) const {
+    static const Digest ofSources = [] {
+        Digest digest = makeDigest();
+        digest.add(compilerVersion());
+        for (const ShaderSource& source : shaderSources()) digest.add(source.name), digest.add(source.text);
+        return digest;
+    }();
+    Digest digest = ofSources;
+    digest.add(isolated.text);
+    digest.add(request.file);
+    digest.add(request.isTriangles ? "triangles" : "quads");
+    digest.add(request.access == TableAccess::storageBuffers ? "storage" : "texels");
+    return digest;
+}
+
+std::span<const std::uint32_t> HeightFunction::Parts::shader(const ShaderRequest& request) {
+    const auto found = shaders.find(request);
+    if (found != shaders.end()) return found->second;
+    const auto start = std::chrono::steady_clock::now();
+    const Digest digest = digestOf(request);
+    std::optional<std::vector<std::uint32_t>> words = readCachedShader(digest);
+    if (words) {
+        ++costs.cachedCount;
+    } else {
+        words = compileShader(function, isolated, request);
+        writeCachedShader(digest, *words);
+        ++costs.compiledCount;
+    }
+    costs.milliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return shaders[request] = std::move(*words);
+}
+
+const std::string& HeightFunction::name() const { return parts_->function.name; }
+bool HeightFunction::statesBound() const { return parts_->isolated.statesBound; }
+std::uint32_t HeightFunction::number() const { return parts_->number; }
+const HeightFunction::Costs& HeightFunction::costs() const { return parts_->costs; }
+
+std::span<const std::uint32_t> HeightFunction::shader(std::string_view file, bool isTriangles,
+                                                      TableAccess access) const {
+    if (!evaluatesHeights(file)) return {};
+    return parts_->shader({findShaderSource(file)->name, isTriangles, access}); // a name that lasts
+}
+
+std::span<const std::uint32_t> HeightFunction::evaluator() const { return parts_->shader({}); }
+
+} // namespace relief

@@ -1,0 +1,236 @@
+#include "formula/isolate.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <set>
+
+namespace relief {
+namespace {
+
+enum class TokenKind { space, word, number, sign };
+
+struct Token {
+    TokenKind kind = TokenKind::space;
+    std::string_view text;
+    int line = 1;
+    bool isOfDirective = false;
+};
+
+bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+
+/// Splits GLSL into tokens, which together are the text.
+class Lexer {
+public:
+    explicit Lexer(std::string_view text) : text_(text) {}
+
+    std::vector<Token> read() {
+        while (at_ < text_.size()) {
+            const char c = text_[at_];
+            if (at(0) == '/' && at(1) == '/') {
+                add(TokenKind::space, std::min(text_.find('\n', at_), text_.size()));
+            } else if (at(0) == '/' && at(1) == '*') {
+                const std::size_t end = text_.find("*/", at_ + 2);
+                add(TokenKind::space, end == std::string_view::npos ? text_.size() : end + 2);
+            } else if (std::isspace(static_cast<unsigned char>(c)) != 0) {
+                if (c == '\n' && !isContinued()) isDirective_ = false, isLineStart_ = true;
+                add(TokenKind::space, at_ + 1);
+            } else if (isDigit(c) || (c == '.' && isDigit(at(1)))) {
+                add(TokenKind::number, numberEnd());
+            } else if (isWordLetter(c)) {
+                add(TokenKind::word, wordEnd(at_));
+            } else {
+                isDirective_ = isDirective_ || (c == '#' && isLineStart_);
+                add(TokenKind::sign, at_ + 1);
+            }
+        }
+        return std::move(tokens_);
+    }
+
+private:
+    [[nodiscard]] char at(std::size_t offset) const { return at_ + offset < text_.size() ? text_[at_ + offset] : '\0'; }
+    [[nodiscard]] bool isContinued() const {
+        const std::size_t last = at_ > 0 && text_[at_ - 1] == '\r' ? 2 : 1;
+        return at_ >= last && text_[at_ - last] == '\\';
+    }
+    [[nodiscard]] std::size_t wordEnd(std::size_t end) const {
+        while (end < text_.size() && isWordLetter(text_[end])) ++end;
+        return end;
+    }
+    /// Exponents have signs, and suffixes are letters: what follows a number without a space belongs to it.
+    [[nodiscard]] std::size_t numberEnd() const {
+        const bool isHexadecimal = at(0) == '0' && (at(1) == 'x' || at(1) == 'X');
+        std::size_t end = at_;
+        const auto isSign = [&] {
+            return !isHexadecimal && (text_[end] == '+' || text_[end] == '-') &&
+                   (text_[end - 1] == 'e' || text_[end - 1] == 'E');
+        };
+        while (end < text_.size() && (isWordLetter(text_[end]) || text_[end] == '.' || isSign())) ++end;
+        return end;
+    }
+    void add(TokenKind kind, std::size_t end) {
+        const std::string_view part = text_.substr(at_, end - at_);
+        tokens_.push_back({kind, part, line_, isDirective_});
+        line_ += int(std::count(part.begin(), part.end(), '\n'));
+        isLineStart_ = isLineStart_ && kind == TokenKind::space;
+        at_ = end;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+    bool isDirective_ = false, isLineStart_ = true;
+    std::vector<Token> tokens_;
+};
+
+constexpr std::array kAllowedDirectives = {"define", "undef", "if",    "ifdef", "ifndef",
+                                           "elif",   "else",  "endif", "error"};
+constexpr std::array kRefusedWords = {"layout",    "uniform", "buffer",     "shared",  "main",
+                                      "attribute", "varying", "double",     "dvec2",   "dvec3",
+                                      "dvec4",     "discard", "subroutine", "barrier", "memoryBarrier"};
+
+bool isOneOf(std::span<const char* const> words, std::string_view word) {
+    return std::ranges::any_of(words, [&](const char* other) { return word == other; });
+}
+
+/// Components of vectors: they are no names of their own after a point.
+bool isSwizzle(std::string_view word) {
+    const auto isOf = [&](std::string_view letters) {
+        return word.size() <= 4 && word.find_first_not_of(letters) == std::string_view::npos;
+    };
+    return isOf("xyzw") || isOf("rgba") || isOf("stpq");
+}
+
+class Isolator {
+public:
+    explicit Isolator(const FunctionText& function)
+        : file_(function.name), tokens_(Lexer(function.text).read()), inserted_(tokens_.size() + 1) {
+        for (std::size_t i = 0; i < tokens_.size(); ++i)
+            if (tokens_[i].kind != TokenKind::space) order_.push_back(i);
+    }
+
+    IsolatedText isolate() {
+        checkDirectives();
+        checkWords();
+        findDeclarations();
+        if (!functions_.contains("height"))
+            fail(Failure::input, "{}: there is no function float height(vec3 p, vec2 st, float t)", file_);
+        countTurns();
+        return {write(), names_.contains("kBound")};
+    }
+
+private:
+    // Tokens without spaces and comments, by their order; an empty one past both ends.
+    [[nodiscard]] const Token& token(std::size_t i) const {
+        static const Token none;
+        return i < order_.size() ? tokens_[order_[i]] : none;
+    }
+    [[nodiscard]] bool is(std::size_t i, std::string_view text) const { return token(i).text == text; }
+
+    void checkDirectives() const {
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            const bool isStart = is(i, "#") && token(i).isOfDirective && (i == 0 || token(i - 1).line < token(i).line);
+            const bool isWord = token(i + 1).kind == TokenKind::word && token(i + 1).line == token(i).line;
+            if (isStart && isWord && !isOneOf(kAllowedDirectives, token(i + 1).text))
+                fail(Failure::input, "{}:{}: a height function cannot have #{}", file_, token(i).line,
+                     token(i + 1).text);
+        }
+    }
+
+    void checkWords() const {
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            const Token& t = token(i);
+            if (t.kind != TokenKind::word) continue;
+            if (isOneOf(kRefusedWords, t.text) || t.text.starts_with("gl_") || t.text.starts_with(kFunctionPrefix))
+                fail(Failure::input, "{}:{}: a height function cannot have {}: it is given p, st and t alone", file_,
+                     t.line, t.text);
+        }
+    }
+
+    /// Names that are declared outside of all braces, and macros.
+    void findDeclarations() {
+        int depth = 0;
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            if (token(i).isOfDirective) {
+                if (is(i, "define")) names_.insert(token(i + 1).text);
+                continue;
+            }
+            if (is(i, "{") || is(i, "(")) ++depth;
+            if (is(i, "}") || is(i, ")")) --depth;
+            if (depth > 0 || token(i).kind != TokenKind::word) continue;
+            if (is(i, "precision")) // a statement of three words that declares nothing
+                i += 2;
+            else if (isDeclared(i))
+                names_.insert(token(i).text);
+            if (is(i, "struct")) names_.insert(token(i + 1).text);
+            if (is(i + 1, "(") && names_.contains(token(i).text)) functions_.insert(token(i).text);
+        }
+    }
+
+    /// A word after its type, or after another one, before what ends a declarator.
+    [[nodiscard]] bool isDeclared(std::size_t i) const {
+        if (i == 0) return false;
+        const Token &before = token(i - 1), &after = token(i + 1);
+        const bool followsType = before.kind == TokenKind::word || is(i - 1, "]") || is(i - 1, "}") || is(i - 1, ",");
+        return followsType && after.text.size() == 1 && std::string_view("(=;[,").find(after.text) != std::string::npos;
+    }
+
+    /// Every condition of a loop counts first.
+    void countTurns() {
+        for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
+            const bool isFor = is(i, "for");
+            if ((!isFor && !is(i, "while")) || !is(i + 1, "(")) continue;
+            // The tokens before and after the condition.
+            std::vector<std::size_t> ends{i + 1};
+            std::size_t j = i + 2;
+            for (int depth = 1; j < order_.size(); ++j) {
+                depth += is(j, "(") ? 1 : is(j, ")") ? -1 : 0;
+                if (depth == 0 || (isFor && depth == 1 && is(j, ";"))) ends.push_back(j);
+                if (depth == 0) break;
+            }
+            const std::size_t first = isFor ? 1 : 0;
+            if (ends.size() != first + 2 + (isFor ? 1 : 0)) continue; // a syntax error that the compiler reports
+            const bool isEmpty = ends[first + 1] == ends[first] + 1;
+            inserted_[order_[ends[first]] + 1] += isEmpty ? " formula_turn()" : " formula_turn() && (";
+            if (!isEmpty) inserted_[order_[ends[first + 1]]] = ")" + inserted_[order_[ends[first + 1]]];
+        }
+    }
+
+    [[nodiscard]] std::string write() const {
+        std::string text;
+        std::size_t last = tokens_.size(); // the token before, without spaces
+        int structDepth = 0;
+        bool isStruct = false;
+        for (std::size_t i = 0; i < tokens_.size(); ++i) {
+            const Token& t = tokens_[i];
+            text += inserted_[i];
+            isStruct = isStruct || t.text == "struct";
+            if (isStruct) structDepth += t.text == "{" ? 1 : t.text == "}" ? -1 : 0;
+            if (t.text == "}" && structDepth == 0) isStruct = false;
+            const bool isMember = (last < i && tokens_[last].text == ".") || structDepth > 0;
+            if (t.kind == TokenKind::word && names_.contains(t.text) && !(isMember && isSwizzle(t.text)))
+                text += kFunctionPrefix;
+            text += t.text;
+            if (t.kind != TokenKind::space) last = i;
+        }
+        return text + inserted_.back();
+    }
+
+    const std::string& file_;
+    std::vector<Token> tokens_;
+    std::vector<std::size_t> order_;
+    std::vector<std::string> inserted_; ///< before each token, and at the end
+    std::set<std::string_view> names_, functions_;
+};
+
+} // namespace
+
+IsolatedText isolate(const FunctionText& function) {
+    const std::size_t zero = function.text.find('\0');
+    if (zero != std::string::npos) fail(Failure::input, "{}: byte {} is 0: this is no text", function.name, zero);
+    return Isolator(function).isolate();
+}
+
+} // namespace relief

@@ -1,0 +1,104 @@
+#include "formula/shader_cache.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+namespace relief {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// FNV-1a with two offsets: no defence against forgery, of which a folder of the user's own has no need.
+constexpr std::uint64_t kOffsets[2] = {0xcbf29ce484222325u, 0x84222325cbf29ce4u}, kPrime = 0x100000001b3u;
+
+/// What a file begins with; its words follow.
+struct Header {
+    char magic[8];
+    std::uint64_t digest[2];
+    std::uint64_t wordCount;
+    std::uint64_t checksum[2]; ///< of the words
+};
+constexpr char kMagic[8] = {'r', 'e', 'l', 'i', 'e', 'f', 's', '1'};
+constexpr std::uint64_t kMostBytes = 1u << 26;
+
+Digest checksumOf(std::span<const std::uint32_t> words) {
+    Digest digest = makeDigest();
+    digest.add({reinterpret_cast<const char*>(words.data()), words.size_bytes()});
+    return digest;
+}
+
+Header headerOf(const Digest& digest, std::span<const std::uint32_t> words) {
+    Header header{.wordCount = words.size()};
+    const Digest checksum = checksumOf(words);
+    std::memcpy(header.magic, kMagic, sizeof(kMagic));
+    std::memcpy(header.digest, digest.halves, sizeof(header.digest));
+    std::memcpy(header.checksum, checksum.halves, sizeof(header.checksum));
+    return header;
+}
+
+std::string pathOf(const Digest& digest) { return shaderCacheFolder() + "/" + digest.name() + ".spv"; }
+
+std::string folderOf(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && value[0] == '/' ? value : "";
+}
+
+} // namespace
+
+Digest makeDigest() { return {kOffsets[0], kOffsets[1]}; }
+
+void Digest::add(std::string_view text) {
+    for (std::uint64_t& half : halves) {
+        for (const char c : text) half = (half ^ static_cast<unsigned char>(c)) * kPrime;
+        half = (half ^ text.size()) * kPrime;
+    }
+    halves[1] ^= halves[0] >> 32; // else the two would differ by their offsets alone
+}
+
+std::string Digest::name() const { return fmt::format("{:016x}{:016x}", halves[0], halves[1]); }
+
+std::string shaderCacheFolder() {
+    const char* choice = std::getenv("RELIEF_CACHE");
+    if (choice != nullptr && std::string_view(choice) == "0") return "";
+    if (const std::string folder = folderOf("RELIEF_CACHE"); !folder.empty()) return folder;
+    if (const std::string cache = folderOf("XDG_CACHE_HOME"); !cache.empty()) return cache + "/relief";
+    const std::string home = folderOf("HOME");
+    return home.empty() ? "" : home + "/.cache/relief";
+}
+
+std::optional<std::vector<std::uint32_t>> readCachedShader(const Digest& digest) {
+    if (shaderCacheFolder().empty()) return {};
+    std::string bytes;
+    std::error_code ignored;
+    if (!fs::is_regular_file(pathOf(digest), ignored)) return {};
+    try {
+        bytes = readFile(pathOf(digest), kMostBytes);
+    } catch (const Error&) { // it went away, or is not readable
+        return {};
+    }
+    // The file is what would be written of its words, to the byte.
+    if (bytes.size() < sizeof(Header) || (bytes.size() - sizeof(Header)) % 4 != 0) return {};
+    std::vector<std::uint32_t> words((bytes.size() - sizeof(Header)) / 4);
+    std::memcpy(words.data(), bytes.data() + sizeof(Header), words.size() * 4);
+    const Header header = headerOf(digest, words);
+    if (std::memcmp(&header, bytes.data(), sizeof(Header)) != 0) return {};
+    return words;
+}
+
+void writeCachedShader(const Digest& digest, std::span<const std::uint32_t> words) {
+    const std::string folder = shaderCacheFolder();
+    std::error_code error;
+    if (folder.empty() || (fs::create_directories(folder, error), error)) return;
+    const Header header = headerOf(digest, words);
+    std::string bytes(reinterpret_cast<const char*>(&header), sizeof(header));
+    bytes.append(reinterpret_cast<const char*>(words.data()), words.size_bytes());
+    try {
+        writeFile(pathOf(digest), bytes);
+    } catch (const Error&) { // a full disk, a folder of somebody else: then it is compiled again the next time
+    }
+}
+
+} // namespace relief

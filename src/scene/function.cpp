@@ -1,0 +1,154 @@
+// Heights by a function: what it displaces by, found out before anything is drawn.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/loading.h"
+
+namespace relief {
+namespace {
+
+constexpr int kCoarseIsolation = 2;               ///< enough to find the heights of a face
+constexpr std::size_t kMeasuredPoints = 1u << 16; ///< of all faces and times together, as far as every face has 3 x 3
+constexpr double kMargin = 1.25;                  ///< of a bound that is measured
+constexpr double kStepShare = 1.0 / 8192;         ///< of slopes: of the diagonal of the cage's box
+
+struct MeasuredPoint {
+    int face = 0;
+    dvec2 uv{0};
+};
+
+/// The same for all faces, corners and edges included.
+std::vector<MeasuredPoint> spreadPoints(const ReferenceSurface& surface, std::size_t count) {
+    const double perFace = double(count) / std::max(surface.faceCount(), 1);
+    const int side = std::max(int(std::sqrt(perFace)), 3);
+    std::vector<MeasuredPoint> points;
+    for (int face = 0; face < surface.faceCount(); ++face) {
+        if (surface.isHole(face)) continue;
+        for (int j = 0; j < side; ++j)
+            for (int i = 0; i < side; ++i) {
+                const dvec2 uv = dvec2(i, j) / double(side - 1);
+                if (surface.sideCount() == 4 || i + j < side) points.push_back({face, uv});
+            }
+    }
+    return points;
+}
+
+/// What the points of `surface` are to the function, at one time.
+std::vector<FunctionPoint> toFunctionPoints(const ReferenceSurface& surface, std::span<const MeasuredPoint> points,
+                                            double unit) {
+    std::vector<FunctionPoint> given;
+    given.reserve(points.size());
+    for (const MeasuredPoint& point : points)
+        given.push_back({.p = vec3(unit * surface.limit(point.face, point.uv).p),
+                         .st = vec2(surface.texture(point.face, point.uv).st)});
+    return given;
+}
+
+/// Checks values against what is stated, and keeps what is needed of them.
+class Census {
+public:
+    Census(const HeightFunction& function, std::optional<double> stated, double mid, std::size_t faceCount)
+        : name_(function.name()), stated_(stated), mid_(mid), lowest_(faceCount, INFINITY),
+          highest_(faceCount, -INFINITY) {}
+
+    void add(const MeasuredPoint& point, double time, const FunctionValue& found) {
+        const double value = found.value;
+        const auto place = [&] {
+            return fmt::format("at face {}, (u,v) = ({:.6g}, {:.6g}), t = {:.6g} s", point.face, point.uv.x, point.uv.y,
+                               time);
+        };
+        if (found.hasTooManyTurns)
+            fail(Failure::device, "{}: loops take more than {} turns {}: does one never end?", name_,
+                 kMostFunctionTurns, place());
+        if (!std::isfinite(value))
+            fail(Failure::input, "{}: height is {} {}", name_, std::isnan(value) ? NAN : value, place());
+        if (stated_ && std::abs(value) > *stated_ * (1 + 1e-5))
+            fail(Failure::input, "{}: height is {:.6g} {}, more than its bound {:.6g}: raise kBound or --height-bound",
+                 name_, value, place(), *stated_);
+        largest_ = std::max(largest_, std::abs(value - mid_));
+        lowest_[std::size_t(point.face)] = std::min(lowest_[std::size_t(point.face)], value);
+        highest_[std::size_t(point.face)] = std::max(highest_[std::size_t(point.face)], value);
+    }
+
+    [[nodiscard]] double largest() const { return largest_; } ///< of |value - mid|
+    [[nodiscard]] std::vector<float> ranges(double scale) const {
+        std::vector<float> ranges;
+        ranges.reserve(lowest_.size());
+        for (std::size_t face = 0; face < lowest_.size(); ++face)
+            ranges.push_back(float(std::abs(scale) * std::max(highest_[face] - lowest_[face], 0.0)));
+        return ranges;
+    }
+
+private:
+    const std::string& name_;
+    std::optional<double> stated_;
+    double mid_, largest_ = 0;
+    std::vector<double> lowest_, highest_; ///< per face
+};
+
+std::optional<double> findStatedBound(FunctionEvaluator& evaluator, const HeightFunction& function,
+                                      const HeightDesc& desc) {
+    if (desc.functionBound || !function.statesBound()) return desc.functionBound;
+    const double bound = evaluator.bound();
+    if (!(bound >= 0 && std::isfinite(bound)))
+        fail(Failure::input, "{}: kBound is {}; it is the largest absolute value that height() returns",
+             function.name(), bound);
+    return bound;
+}
+
+void checkSize(const LoadedObject& object, double bound) {
+    constexpr double kMost = 1 << 20;
+    const double size = summarize(object.cage).bounds.longestSide() / object.cage.coordinates.unit;
+    if (size > 0 && !(bound <= kMost * size))
+        fail(Failure::usage,
+             "{}: heights of up to {:.3g} on a cage {:.3g} large are too much for 32-bit floats; lower "
+             "--scale",
+             object.function->function->name(), bound, size);
+}
+
+} // namespace
+
+FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage) {
+    FunctionHeights heights;
+    heights.function = std::make_shared<const HeightFunction>(readHeightFunction(desc.height.function));
+    heights.unit = cage.coordinates.unit;
+    heights.scale = desc.height.scale.value_or(1) / heights.unit;
+    heights.mid = desc.height.mid.value_or(0);
+    heights.step = float(kStepShare * computeBounds(cage.positions).diagonal());
+    return heights;
+}
+
+void measureFunction(Device& device, LoadedObject& object, const HeightDesc& desc, std::span<const double> times,
+                     const Warn& warn) {
+    if (!object.function) return;
+    FunctionHeights& heights = *object.function;
+    const HeightFunction& function = *heights.function;
+    FunctionEvaluator evaluator(device, function);
+    const std::optional<double> stated = findStatedBound(evaluator, function, desc);
+
+    // Points all over the surface at rest.
+    Cage rest = object.cage;
+    if (!object.restPositions.empty()) rest.positions = object.restPositions;
+    const ReferenceSurface surface(rest, {.scheme = object.options.scheme, .isolation = kCoarseIsolation});
+    const std::vector<MeasuredPoint> points = spreadPoints(surface, kMeasuredPoints / std::max(times.size(), 1ul));
+    std::vector<FunctionPoint> given = toFunctionPoints(surface, points, heights.unit);
+
+    Census census(function, stated, heights.mid, std::size_t(surface.faceCount()));
+    for (const double time : times) {
+        for (FunctionPoint& point : given) point.t = float(time);
+        const std::vector<FunctionValue> values = evaluator.evaluate(given);
+        for (std::size_t i = 0; i < points.size(); ++i) census.add(points[i], time, values[i]);
+    }
+    const double bound =
+        std::abs(heights.scale) * (stated ? *stated + std::abs(heights.mid) : kMargin * census.largest());
+    checkSize(object, bound);
+    heights.bound = float(bound);
+    heights.faceRanges = census.ranges(heights.scale);
+    if (!stated)
+        warn(fmt::format(
+            "{}: states no kBound; the largest height at {} points is {:.4g}, and heights are clamped to a "
+            "quarter more, {:.4g}",
+            function.name(), points.size() * times.size(), heights.unit * bound / kMargin, heights.unit * bound));
+}
+
+} // namespace relief
