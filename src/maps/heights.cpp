@@ -179,7 +179,7 @@ Fit chooseFit(const NormalMap& map, const dvec2& texel, double smoothness) {
     Fit fit = computeFit({map}, texel, smoothness);
     if (map.wrap == Wrap::repeat) return fit;
     Fit halved = computeFit({map, true}, texel, smoothness);
-    constexpr double kClearly = 0.999; // equal but for rounding where borders have no slope
+    constexpr double kClearly = 0.25; // heights that are rough themselves may be smoother by chance
     return halved.roughnessSquare < kClearly * fit.roughnessSquare ? std::move(halved) : std::move(fit);
 }
 

@@ -46,8 +46,8 @@ struct IntegrationOptions {
 /// and a cosine transform along one that is clamped. Waves of two texels, of which central differences see nothing, are
 /// 0 in the result. With a `rounding`, heights with small second differences are preferred as much as the rounding
 /// hides of them (Tikhonov); without that, errors of the slopes show as a pattern of single texels. Across a clamped
-/// border a map may hold all of a slope, or the half that a clamped difference sees: that which makes smoother heights
-/// is taken.
+/// border a map may hold all of a slope, or the half that a clamped difference sees: all of it where that makes much
+/// smoother heights.
 /// Throws Failure::input for normals with z <= 0 and for object space; `name` stands for the map in messages.
 IntegratedHeights integrateNormals(const NormalMap& map, const IntegrationOptions& options, const std::string& name);
 

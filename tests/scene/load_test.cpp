@@ -94,13 +94,13 @@ TEST_F(Loading, refusesATimeWhereNothingMoves) {
 
 TEST_F(Loading, listsAllFilesThatOutputsMustNotReplace) {
     SceneDesc scene{.object = {.cage = "a",
-                               .height = {.path = "b"},
+                               .height = {.path = "b", .function = "h"},
                                .material = {.albedo = "c", .normalMap = {.path = "g"}},
                                .motion = {.cachePath = "d", .skinPath = "e"}},
                     .lighting = {.environment = "f"}};
     std::vector<std::string> files = listFiles(scene);
     std::ranges::sort(files);
-    EXPECT_EQ(files, (std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g"}));
+    EXPECT_EQ(files, (std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g", "h"}));
 }
 
 } // namespace
