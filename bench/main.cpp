@@ -77,7 +77,8 @@ struct Timing {
 /// Dices one model per round, and times its vertices alone and the whole mesh.
 class TimedDicing {
 public:
-    TimedDicing(Device& device, const SurfaceModel& model, const EdgeRates& rates, NormalKind normal, const std::string& what)
+    TimedDicing(Device& device, const SurfaceModel& model, const EdgeRates& rates, NormalKind normal,
+                const std::string& what)
         : dicer_(device), model_(model), rates_(rates),
           normal_(normal), vertices_{"relief dicer, vertices", what, 0, {}}, mesh_{"relief dicer, with triangles",
                                                                                    what,
@@ -143,7 +144,8 @@ int benchDice() {
     const Surface surface = buildSurface(test.cage, {.isolation = kIsolation});
     // Displaced as relief draws it, and smooth as the others evaluate it.
     Device device;
-    const SurfaceModel displaced(device, {.surface = &surface, .cagePositions = test.cage.positions, .height = &test.map});
+    const SurfaceModel displaced(device,
+                                 {.surface = &surface, .cagePositions = test.cage.positions, .height = &test.map});
     const SurfaceModel smooth(device, {.surface = &surface, .cagePositions = test.cage.positions});
     EdgeRater rater(device);
     const EdgeRates rates = rater.rates(displaced, test.options, {});
@@ -178,7 +180,8 @@ int benchSplit() {
         std::cout << "split: " << device.traits().name << " has no tessellation shaders\n";
         return 0;
     }
-    const SurfaceModel model(device, {.surface = &test.surface, .cagePositions = test.cage.positions, .height = &test.map});
+    const SurfaceModel model(device,
+                             {.surface = &test.surface, .cagePositions = test.cage.positions, .height = &test.map});
     for (const std::uint32_t limit : {1'000u, 2'500u, 5'000u, 10'000u, 20'000u, 40'000u, 80'000u}) {
         RenderOptions options = test.options;
         options.tessellatedVerticesPerDraw = limit;

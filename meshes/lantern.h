@@ -9,14 +9,14 @@ constexpr double kLanternTurn = 0.96 / 8.5;           ///< of s, one side of the
 constexpr double kPanelLow = 0.40, kPanelHigh = 0.66; ///< the panels' lower and upper border in t
 
 /// Texture coordinates as sides of the lantern, and 0..1 over the height of a panel.
-inline dvec2 lanternPlace(const dvec2& st) {
+inline dvec2 lanternCoordinates(const dvec2& st) {
     return {(st.x - 0.02) / kLanternTurn, (st.y - kPanelLow) / (kPanelHigh - kPanelLow)};
 }
 
 struct LanternBuilder {
     static constexpr int kSides = 8;
     CageBuilder cage;
-    std::map<std::pair<long, long>, std::uint32_t> texes; ///< of the current island, by place
+    std::map<std::pair<long, long>, std::uint32_t> texes; ///< of the current island, by coordinates
 
     /// A point at `turn` eighths around the axis; odd rings may stand half a side on.
     std::uint32_t point(double turn, double radius, double y) {
@@ -28,7 +28,7 @@ struct LanternBuilder {
         for (int i = 0; i < kSides; ++i) loop.push_back(point(i + shift, radius, y));
         return loop;
     }
-    /// A corner whose texture place is `turn` eighths along and `up` high; equal places are one.
+    /// A corner whose texture coordinates are `turn` eighths along and `up` high; equal ones are shared.
     Corner corner(std::uint32_t point, double turn, double up) {
         dvec2 st(0.02 + kLanternTurn * turn, up);
         auto [entry, isNew] = texes.insert({{std::lround(st.x * 1e5), std::lround(st.y * 1e5)}, 0});
@@ -93,12 +93,14 @@ inline void LanternBuilder::addFloor(const Loop& foot) {
 }
 
 inline Cage makeLantern() {
+    // Rings of points from the foot up, each with its turn, radius and height.
     LanternBuilder lantern;
     Loop foot = lantern.ring(0, 0.56, 0), sole = lantern.ring(0, 0.60, 0.10), waist = lantern.ring(0, 0.50, 0.20);
     std::array<Loop, 3> frame{lantern.ring(0, 0.54, 0.26), lantern.ring(0, 0.66, 0.76), lantern.ring(0, 0.54, 1.26)};
     Loop under = lantern.ring(0, 0.78, 1.26), eaves = lantern.ring(0, 0.80, 1.32),
          ridge = lantern.ring(0.5, 0.34, 1.62);
     Loop neck = lantern.ring(0.5, 0.20, 1.72), mouth = lantern.ring(0.5, 0.24, 1.92);
+    // Faces between neighbouring rings, with the interval of t that they have in texture space.
     lantern.addFloor(foot);
     lantern.addBand(foot, sole, 0.29, 0.32);
     lantern.addBand(sole, waist, 0.32, 0.37);
@@ -109,6 +111,7 @@ inline Cage makeLantern() {
     lantern.addRoof(eaves, ridge);
     lantern.addBand(ridge, neck, 0.86, 0.90, 0.5);
     lantern.addBand(neck, mouth, 0.90, 0.96, 0.5);
+    // Sharp at the foot, semi-sharp at the eaves.
     for (int i = 0; i < LanternBuilder::kSides; ++i) {
         int n = (i + 1) % LanternBuilder::kSides;
         lantern.cage.crease(foot[i], foot[n], 10);

@@ -14,14 +14,14 @@ inline double paneDepth(const dvec2& panel) {
 
 inline Painting paintLantern(const ivec2& size) {
     return paintSquare(size, [](const dvec2& st) {
-        dvec2 place = lanternPlace(st); // in sides of the lantern, and 0..1 over a panel's height
-        double side = place.x - std::floor(place.x);
-        dvec3 p(place.x * 7.0, place.y * 14.0, 0.5);
+        dvec2 at = lanternCoordinates(st); // in sides of the lantern, and 0..1 over a panel's height
+        double side = at.x - std::floor(at.x);
+        dvec3 p(at.x * 7.0, at.y * 14.0, 0.5);
         Cells dents = cells(warped(p, 0.7, 0.35, 3), 5);
         double hammered = 0.010 * (dents.nearest * dents.nearest - 0.35) + 0.0015 * noise(p * 6.0, 7);
         dvec3 bronze = glm::mix(dvec3(0.46, 0.31, 0.16), dvec3(0.36, 0.23, 0.12), smoothstep(0.3, 0.9, dents.nearest));
         bronze = glm::mix(bronze, dvec3(0.20, 0.36, 0.31), 0.7 * smoothstep(0.10, 0.45, fractal(p * 0.35, 3, 9)));
-        double depth = place.y > 0 && place.y < 1 ? paneDepth({side, place.y}) : -1;
+        double depth = at.y > 0 && at.y < 1 ? paneDepth({side, at.y}) : -1;
         if (depth < -0.15) return Paint{hammered, bronze};
         double ripple = 0.004 * std::sin(18 * depth + 3 * noise(p * 0.7, 11)), glass = smoothstep(0.0, 0.06, depth);
         double bead = 0.022 * std::exp(-std::pow(depth / 0.07, 2));

@@ -21,6 +21,7 @@ inline dvec3 spiralPoint(double i, double n) {
 
 /// Peel with pores of three sizes, a dimple with creases and the button of the stem at the top.
 inline Painting paintOrange(const ivec2& size) {
+    // Pores, spread evenly but not regularly; small ones are the most frequent.
     constexpr int kPores = 7500;
     Stamps pores(0.05);
     Random random(3);
@@ -30,6 +31,7 @@ inline Painting paintOrange(const ivec2& size) {
         pores.add({glm::normalize(spiralPoint(i, kPores) + 0.012 * jitter), 0.012 + 0.014 * luck * luck, {}, luck, 0});
     }
     return paintBall(size, [&](const dvec3& d) {
+        // Heights: lumps and pores, the dimple with creases around the stem, and its button.
         double pit = 0;
         pores.forEachNear(d, [&](const Stamp& pore, double x) { pit += (0.5 + 0.5 * pore.luck) * bump(x); });
         double fromTop = std::acos(glm::clamp(d.y, -1.0, 1.0)), turn = std::atan2(d.x, d.z);
@@ -39,6 +41,7 @@ inline Painting paintOrange(const ivec2& size) {
         double height = lumps - 0.010 * pit * (1 - button) - 0.035 * d.y * d.y;
         height += navel * (-0.055 - 0.022 * creases * smoothstep(0.05, 0.12, fromTop));
         height += button * (0.035 + 0.012 * fractal(d * 40.0, 2, 15));
+        // Colors: darker in pores, greener towards the stem.
         double tint = fractal(d * 1.6, 3, 11);
         dvec3 color = glm::mix(dvec3(0.94, 0.50, 0.06), dvec3(0.97, 0.62, 0.12), smoothstep(-0.3, 0.3, tint));
         color = glm::mix(color, dvec3(0.84, 0.36, 0.03), 0.5 * std::min(1.0, pit));

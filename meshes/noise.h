@@ -50,7 +50,7 @@ inline double ramp(std::uint32_t bits, double x, double y, double z) {
     return r[0] * x + r[1] * y + r[2] * z;
 }
 
-/// Gradient noise, about -1..1, one feature a unit; with a period (> 0) it repeats after so many units along x and y.
+/// Gradient noise, about -1..1, one feature per unit; with a period (> 0) it repeats after so many units along x and y.
 inline double noise(const dvec3& p, std::uint32_t seed, int period = 0) {
     int x = floorOf(p.x), y = floorOf(p.y), z = floorOf(p.z);
     double fx = p.x - x, fy = p.y - y, fz = p.z - z;
@@ -89,7 +89,8 @@ inline double ridges(dvec3 p, int octaves, std::uint32_t seed) {
     return sum;
 }
 
-/// Distances from p to the nearest two of one random point a unit cell, and the nearest one's own number (Worley 1996).
+/// Distances from p to the nearest two of one random point per unit cell, and the nearest one's own number (Worley
+/// 1996).
 struct Cells {
     double nearest, second, luck;
 };

@@ -101,10 +101,11 @@ inline void OctopusBuilder::addMouth() {
 
 /// Rings from the foot of the mound over lid and fold to the eyeball; a round island of twice the common density.
 inline void OctopusBuilder::addEye(int index) {
+    // The points of the rings; the outermost ones are the body's own, moved.
     Eye eye = octopusEye(index);
     int column = int(kEyeColumns[index]);
     std::vector<Loop> loops{blockLoop(kEyeRow - 1, column - 1, 2, 2)};
-    std::vector<double> reach{0}; // arc length from the foot inwards
+    std::vector<double> lengths{0}; // arc length from the foot inwards
     for (std::size_t i = 0; i < std::size(kEyeRings); ++i) {
         if (i) loops.emplace_back();
         for (int k = 0; k < 8; ++k) {
@@ -115,23 +116,26 @@ inline void OctopusBuilder::addEye(int index) {
                 cage.move(loops[0][k], p);
         }
         if (i)
-            reach.push_back(reach[i - 1] + std::hypot(kEyeRings[i].radius - kEyeRings[i - 1].radius,
-                                                      kEyeRings[i].height - kEyeRings[i - 1].height));
+            lengths.push_back(lengths[i - 1] + std::hypot(kEyeRings[i].radius - kEyeRings[i - 1].radius,
+                                                          kEyeRings[i].height - kEyeRings[i - 1].height));
     }
-    double total = reach.back() + kEyeRings[std::size(kEyeRings) - 1].radius;
-    auto place = [&](double radius, dvec2 direction) {
+    // Texture coordinates by arc length, so that texels are about square.
+    double total = lengths.back() + kEyeRings[std::size(kEyeRings) - 1].radius;
+    auto texCoordAt = [&](double radius, dvec2 direction) {
         return dvec2(0.773, index ? 0.683 : 0.576) + 0.051 * radius / total * direction;
     };
     TexGrid tex(
         cage,
         [&](int row, int k) {
             double angle = radians(225 + 45 * k);
-            return place(total - reach[row], {std::cos(angle), std::sin(angle)});
+            return texCoordAt(total - lengths[row], {std::cos(angle), std::sin(angle)});
         },
         8);
+    // Faces between the rings, then four around the middle of the pupil.
     cage.part(index ? "eye left" : "eye right");
     joinLoops(cage, loops, tex);
-    Corner middle{rings[kEyeRow][column], cage.tex(place(0, {1, 0}))}; // the ring's own point, which the gap left over
+    Corner middle{rings[kEyeRow][column],
+                  cage.tex(texCoordAt(0, {1, 0}))}; // the ring's own point, which the gap left over
     cage.move(middle.point, eye.center + kEyeTop * eye.axis);
     int last = int(loops.size()) - 1;
     auto rim = [&](int k) { return Corner{loops[last][k % 8], tex(last, k % 8)}; };
@@ -145,6 +149,7 @@ inline void OctopusBuilder::addSiphon() {
     };
     constexpr Ring kRings[] = {{0.07, 0.125},  {0.18, 0.105}, {0.30, 0.112},
                                {0.325, 0.092}, {0.28, 0.072}, {0.14, 0.055}};
+    // Rings along a parabola, the last ones within the others.
     std::vector<Loop> loops{blockLoop(kSiphonRow, kSiphonColumn, 1, 2)};
     Siphon siphon = octopusSiphon();
     dvec3 previous = siphon.root;
@@ -158,6 +163,7 @@ inline void OctopusBuilder::addSiphon() {
         heights.push_back(heights.back() + std::max(0.035, glm::distance(middle, previous)));
         previous = middle;
     }
+    // Faces between the rings, and a floor inside.
     heights.push_back(heights.back() + 0.05);
     TexGrid tex(
         cage, [&](int row, int column) { return dvec2(0.840 + 0.100 * column / 6, 0.643 + heights[row] / kTexUnits); });

@@ -5,7 +5,7 @@
 
 namespace relief::meshes {
 
-constexpr int kColumns = 24; ///< three an arm: a web column, then two under which the arm begins
+constexpr int kColumns = 24; ///< three per arm: a web column, then two under which the arm begins
 
 /// A ring of the body: its centre, lean backwards in degrees, radii across and front to back, and how far the ridges
 /// that become arms stand out and up (the valleys between them fall back as much).
@@ -44,8 +44,8 @@ inline double columnAzimuth(double j) { return 15 * j - 7.5; }
 /// The point of a ring at a column, `shrink` times as far from its centre.
 inline dvec3 ringPoint(const BodyRing& ring, double column, double shrink = 1) {
     double azimuth = radians(columnAzimuth(column)), lean = radians(ring.lean);
-    double wave = std::cos(radians(120 * (column - 2))), reach = (1 + ring.ridge * wave) * shrink;
-    double x = std::sin(azimuth) * ring.across * reach, f = std::cos(azimuth) * ring.deep * reach;
+    double wave = std::cos(radians(120 * (column - 2))), factor = (1 + ring.ridge * wave) * shrink;
+    double x = std::sin(azimuth) * ring.across * factor, f = std::cos(azimuth) * ring.deep * factor;
     return {ring.x + x, ring.y + ring.lift * wave + f * std::sin(lean), ring.z + f * std::cos(lean)};
 }
 

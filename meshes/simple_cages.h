@@ -37,8 +37,8 @@ inline Cage makeTorus() {
     std::vector<Loop> loops(kAround);
     for (int i = 0; i < kAround; ++i)
         for (int j = 0; j < kTube; ++j) {
-            double a = 2 * kPi * i / kAround, b = 2 * kPi * j / kTube, reach = 1 + 0.42 * std::cos(b);
-            loops[i].push_back(cage.point({reach * std::sin(a), 0.42 * std::sin(b), reach * std::cos(a)}));
+            double a = 2 * kPi * i / kAround, b = 2 * kPi * j / kTube, radius = 1 + 0.42 * std::cos(b);
+            loops[i].push_back(cage.point({radius * std::sin(a), 0.42 * std::sin(b), radius * std::cos(a)}));
         }
     TexGrid tex(cage, [](int row, int column) { return dvec2(double(column) / kAround, double(row) / kTube); });
     for (int i = 0; i < kAround; ++i)
@@ -98,6 +98,7 @@ inline Cage makeBall() {
     std::vector<dvec3> points;
     std::map<std::array<int, 3>, std::uint32_t> known;
     std::vector<std::array<std::uint32_t, 4>> quads, texes;
+    // Six square grids; points on the edges of the cube belong to two or three of them.
     for (int f = 0; f < 6; ++f) {
         ivec2 island(f % 3, f / 3);
         TexGrid tex(cage, [&](int j, int i) {
@@ -119,6 +120,7 @@ inline Cage makeBall() {
                 texes.push_back({tex(j, i), tex(j, i + 1), tex(j + 1, i + 1), tex(j + 1, i)});
             }
     }
+    // Then moved until the limit surface, not the cage, has radius 1.
     fitToSphere(points, quads);
     for (const dvec3& p : points) cage.point(p);
     for (std::size_t q = 0; q < quads.size(); ++q)

@@ -19,20 +19,21 @@ struct Stamp {
 
 class Stamps {
 public:
-    /// `reach` times a stamp's radius around its centre, lookups find it; `cell` is about the common reach.
-    explicit Stamps(double cell, double reach = 1) : cell_(cell), reach_(reach) {}
+    /// Lookups find a stamp up to `extent` times its radius from its centre; `cell` is about that distance for most
+    /// stamps.
+    explicit Stamps(double cell, double extent = 1) : cell_(cell), extent_(extent) {}
 
     void add(const Stamp& stamp);
-    /// True when no stamp within reach of p is nearer than `spacing` times the two radii.
+    /// True when no stamp whose extent contains p is nearer than `spacing` times the two radii.
     [[nodiscard]] bool isFree(const dvec3& p, double radius, double spacing) const;
-    /// Calls `use(stamp, distance / radius)` for every stamp within reach of p.
+    /// Calls `use(stamp, distance / radius)` for every stamp whose extent contains p.
     template <typename Use>
     void forEachNear(const dvec3& p, Use&& use) const {
         auto found = cells_.find(key(cellOf(p)));
         if (found == cells_.end()) return;
         for (std::uint32_t i : found->second) {
             double x = glm::distance(p, stamps_[i].center) / stamps_[i].radius;
-            if (x < reach_) use(stamps_[i], x);
+            if (x < extent_) use(stamps_[i], x);
         }
     }
     [[nodiscard]] std::size_t size() const { return stamps_.size(); }
@@ -44,13 +45,13 @@ private:
         auto part = [](int x) { return std::uint64_t(x) + (1u << 20); };
         return part(cell.x) | part(cell.y) << 21 | part(cell.z) << 42;
     }
-    double cell_, reach_;
+    double cell_, extent_;
     std::vector<Stamp> stamps_;
-    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; ///< every stamp in each cell that it heightBounds
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_; ///< every stamp in each cell that it overlaps
 };
 
 inline void Stamps::add(const Stamp& stamp) {
-    ivec3 low = cellOf(stamp.center - stamp.radius * reach_), high = cellOf(stamp.center + stamp.radius * reach_);
+    ivec3 low = cellOf(stamp.center - stamp.radius * extent_), high = cellOf(stamp.center + stamp.radius * extent_);
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
             for (int x = low.x; x <= high.x; ++x) cells_[key({x, y, z})].push_back(std::uint32_t(stamps_.size()));

@@ -5,7 +5,7 @@
 
 namespace relief::meshes {
 
-constexpr int kBerryColumns = 24; ///< three a sepal: a gap, then two under which the sepal begins
+constexpr int kBerryColumns = 24; ///< three per sepal: a gap, then two under which the sepal begins
 constexpr int kBerryRows = 9;     ///< of quads on the fruit, from the tip up to the sepals
 constexpr int kSepalRows = 5;
 constexpr double kBerryTexUnits = 7.0; ///< cage units to one side of the texture square
@@ -94,6 +94,7 @@ inline void StrawberryBuilder::addStem() {
 /// A flat leaf that rises from the shoulder, bows over and points down or up, each a little differently.
 inline void StrawberryBuilder::addSepal(int index) {
     constexpr double kWidths[] = {0.21, 0.25, 0.22, 0.15, 0.045}, kCurl[] = {1.0, 0.25, 0.8, -0.1, 1.1, 0.5, 0.05, 0.9};
+    // The root: six points of the fruit, around two of its faces.
     std::vector<Loop> loops;
     Loop root;
     for (int k : {0, 1, 2})
@@ -101,6 +102,7 @@ inline void StrawberryBuilder::addSepal(int index) {
     for (int k : {2, 1, 0})
         root.push_back(rings[kSepalRow + 1][3 * index + 1 + k == kBerryColumns ? 0 : 3 * index + 1 + k]);
     loops.push_back(root);
+    // Rings along the leaf, whose pitch turns as the sepal's own curl asks.
     double azimuth = 2 * kPi * (3 * index + 2) / kBerryColumns;
     dvec3 out(std::sin(azimuth), 0, std::cos(azimuth)), side(out.z, 0, -out.x), center = centerOf(cage, root);
     for (int i = 0; i < kSepalRows; ++i) {
@@ -110,6 +112,7 @@ inline void StrawberryBuilder::addSepal(int index) {
         dvec3 up = glm::cross(along, side);
         loops.push_back(addSixLoop(cage, {center, side, up, kWidths[i], 0.028}));
     }
+    // One strip of texture per sepal.
     TexGrid tex(cage, [&](int row, int column) {
         return dvec2(0.012 + 0.122 * index + 0.105 * column / 6,
                      0.015 + 0.07 * std::min(row, kSepalRows) + 0.012 * std::max(0, row - kSepalRows));

@@ -5,6 +5,7 @@
 #include "project.glsl"
 #include "shared/displacement.h"
 
+layout(constant_id = kIdHasHeight) const bool kHasHeight = false; // vertices are displaced
 layout(constant_id = kIdHasSlopes) const bool kHasSlopes = false;
 layout(constant_id = kIdNormalMap) const uint kNormalMap = kNormalMapNone;
 
@@ -14,39 +15,44 @@ layout(set = 0, binding = kBindNormalMap) uniform sampler2D normalMap;
 // Where (s,t) lies in a picture, whose rows go down.
 vec2 pictureCoordinates() { return vec2(vTexCoord.x, 1.0 - vTexCoord.y); }
 
-// What the vertices' normals lack of the slopes (h_s, h_t) of the map, at the mip that fits the pixel: all of them on a surface
+// Of mips, relative to the pixel: displaced triangles show what each of four samples per pixel meets, and these are half a
+// pixel apart.
+const float kSampleLevel = -1.0;
+
+// What the vertices' normals lack of the slopes (h_s, h_t) of the map, at the mip that fits the samples: all of them on a surface
 // that is not displaced; on a displaced one what its triangles are too large for. Central differences over one texel commute
 // with interpolation between texels, so they are taken once per texel, and the sampler does the rest.
 vec2 missingSlopes() {
-    return inputs.model.slopeUnit * texture(slopeMap, pictureCoordinates()).rg - vec2(vTangentS.w, vTangentT.w);
+    vec2 slopes = inputs.model.slopeUnit * texture(slopeMap, pictureCoordinates(), kSampleLevel).rg;
+    return kHasHeight ? slopes - vec2(vGradientS.w, vGradientT.w) : slopes;
 }
 
 // What the normal map holds: a mean of unit normals, of any length.
 vec3 mappedNormal() { return texture(normalMap, pictureCoordinates()).xyz; }
 
+vec3 unitOrElse(vec3 m, vec3 n) { return dot(m, m) > 0.0 ? normalize(m) : n; }
+
+// The mapped normal in the frame of unit normal n: T along p_s, made perpendicular to n (interpolated and stretched tangents are
+// not), B = n x T on the side of p_t.
+vec3 turnedNormal(vec3 n, vec3 ps, float side) {
+    vec3 tangent = ps - n * dot(n, ps);
+    if (!(dot(tangent, tangent) > 0.0)) return n;
+    tangent = normalize(tangent);
+    vec3 c = mappedNormal();
+    return unitOrElse(c.x * tangent + c.y * side * cross(n, tangent) + c.z * n, n);
+}
+
 vec3 fragmentNormal() {
     if (!kHasSlopes && kNormalMap == kNormalMapNone) return vNormal;
     vec3 n = normalize(vNormal);
-    if (kNormalMap == kNormalMapObject) {
-        vec3 m = worldNormal(mappedNormal());
-        return dot(m, m) > 0.0 ? normalize(m) : n;
-    }
-    vec3 ps = vTangentS.xyz, pt = vTangentT.xyz;
-    float side = dot(n, cross(ps, pt)) < 0.0 ? -1.0 : 1.0; // islands whose texture coordinates are mirrored
-    vec3 bent = n;
-    if (kHasSlopes) {
-        vec2 slopes = missingSlopes();
-        bent = bumpedNormal(n, ps, pt, slopes);
-        bent = dot(bent, bent) > 0.0 ? normalize(bent) : n;
-        ps += slopes.x * n; // along the surface that the slopes stand for
-    }
+    if (kNormalMap == kNormalMapObject) return unitOrElse(worldNormal(mappedNormal()), n);
+    vec3 gradientS = vGradientS.xyz, gradientT = vGradientT.xyz;
+    vec2 slopes = kHasSlopes ? missingSlopes() : vec2(0);
+    vec3 bent = kHasSlopes ? unitOrElse(bumpedNormal(n, gradientS, gradientT, slopes), n) : n;
     if (kNormalMap == kNormalMapNone) return bent;
-    // Interpolated and stretched tangents are not perpendicular to the normal.
-    vec3 tangent = ps - bent * dot(bent, ps);
-    if (!(dot(tangent, tangent) > 0.0)) return bent;
-    tangent = normalize(tangent);
-    vec3 c = mappedNormal();
-    vec3 m = c.x * tangent + c.y * side * cross(bent, tangent) + c.z * bent;
-    return dot(m, m) > 0.0 ? normalize(m) : bent;
+    // p_s = (grad t x n) / (n . (grad s x grad t)); along the surface that the slopes stand for it rises by h_s.
+    float density = dot(n, cross(gradientS, gradientT));
+    if (density == 0.0) return bent;
+    return turnedNormal(bent, cross(gradientT, n) / density + slopes.x * n, sign(density));
 }
 #endif

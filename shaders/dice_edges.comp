@@ -29,7 +29,8 @@ void main() {
         location = cornerLocation(run.element);
     } else {
         float rate = edgeRate(run.element);
-        location = edgeLocation(run.element, vertex - firstVertexOf(index) + 1u, segmentsOf(rate, inputs.rates.isFractional), rate);
+        location = edgeLocation(run.element, vertex - firstVertexOf(index) + 1u,
+                                segmentsOf(rate, inputs.rates.isFractional), rate);
     }
     DisplacedSample s = displaced(run.incidence.face, incidencePoint(run.incidence, location.t), location);
     storeVertex(vertex, s);

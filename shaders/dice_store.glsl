@@ -6,8 +6,8 @@ void storeVertex(uint vertex, DisplacedSample s) {
     inputs.targets.dicedVertices.at[2u * vertex] = vec4(s.q, s.h);
     inputs.targets.dicedVertices.at[2u * vertex + 1u] = vec4(s.normal, 0.0);
     if (kHasTexCoords && kWantsTexCoords) inputs.targets.dicedTexCoords.at[vertex] = s.st;
-    if (!kHasTangents) return;
-    inputs.targets.dicedTangents.at[2u * vertex] = s.tangentS;
-    inputs.targets.dicedTangents.at[2u * vertex + 1u] = s.tangentT;
+    if (!kHasTexGradients) return;
+    inputs.targets.dicedTexGradients.at[2u * vertex] = s.gradientS;
+    inputs.targets.dicedTexGradients.at[2u * vertex + 1u] = s.gradientT;
 }
 #endif

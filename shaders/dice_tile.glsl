@@ -32,7 +32,8 @@ void loadTile(PatchPoints patchPoints) {
             sharedPoints[k] = pointAt(inputs.model.pointsNow + i).xyz;
             if (kReadsRest) sharedRestPoints[k] = pointAt(inputs.model.pointsRest + i).xyz;
         }
-        if (kHasTexCoords && k < patchSize(patchPoints.texture.type)) sharedTexPoints[k] = texPointAt(pointIndex(patchPoints.texture, k));
+        if (kHasTexCoords && k < patchSize(patchPoints.texture.type))
+            sharedTexPoints[k] = texPointAt(pointIndex(patchPoints.texture, k));
     }
     barrier();
     // Here, outside all branches, where a load with a constant address is one load for all lanes.

@@ -72,7 +72,8 @@ void storeCell(TriangleTile tile, uvec2 n, uint t, uint triangle) {
     }
     uint i = t / 2u + 1u, j = y + 1u;
     if (t % 2u == 0u)
-        storeTriangle(triangle, insideVertex(tile, n.x, i, j), insideVertex(tile, n.x, i + 1u, j), insideVertex(tile, n.x, i, j + 1u));
+        storeTriangle(triangle, insideVertex(tile, n.x, i, j), insideVertex(tile, n.x, i + 1u, j),
+                      insideVertex(tile, n.x, i, j + 1u));
     else
         storeTriangle(triangle, insideVertex(tile, n.x, i + 1u, j), insideVertex(tile, n.x, i + 1u, j + 1u),
                       insideVertex(tile, n.x, i, j + 1u));

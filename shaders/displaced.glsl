@@ -68,8 +68,8 @@ struct DisplacedSample {
     vec3 n;          // unit limit normal of the frame
     vec2 gradient;   // (h_s, h_t); of a height function (h_u, h_v)
     mat2 jacobian;   // of the texture coordinates
-    vec4 tangentS;   // kHasTangents: as in varyings.glsl, in the model's own space
-    vec4 tangentT;
+    vec4 gradientS;  // kHasTexGradients: as in varyings.glsl, in the model's own space
+    vec4 gradientT;
 };
 
 // The drawn face's texture coordinates where the point is evaluated at another face.
@@ -79,24 +79,28 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     return patchFrame(fetchPatch(leaf.patchIndex, inputs.model.pointsNow).texture, leaf.uv).p.xy;
 }
 
-// Derivatives of the drawn surface by s and t: x_s = (x_u t_v - x_v t_u) / det J and x_t = (x_v s_u - x_u s_v) / det J. They
-// vanish where texture coordinates or the surface have no two directions: nothing bends the normal there.
-void addTangents(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
-    s.tangentS = s.tangentT = vec4(0);
-    mat2 J = point.tex.jacobian;
-    float det = determinant(J);
-    if (det == 0.0 || point.isStraight) return;
+// Gradients of s and t along the drawn surface x: with m = x_u x x_v, grad u = (x_v x m) / |m|^2 and grad v = (m x x_u) / |m|^2, and
+// grad s = s_u grad u + s_v grad v. They are 0 where the surface has no two directions: nothing bends the normal there.
+void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
+    s.gradientS = s.gradientT = vec4(0);
+    if (point.isStraight) return;
     bool hasSlopes = kHasHeight && kNormal != kNormalLimit;
     vec3 xu = point.frame.pu, xv = point.frame.pv;
     if (hasSlopes) displaceTangents(point, height, xu, xv);
-    s.tangentS = vec4((xu * J[1].y - xv * J[0].y) / det, hasSlopes ? height.gradient.x : 0.0) / point.stretch;
-    s.tangentT = vec4((xv * J[0].x - xu * J[1].x) / det, hasSlopes ? height.gradient.y : 0.0) / point.stretch;
+    vec3 m = cross(xu, xv);
+    float square = dot(m, m);
+    if (!(square > 0.0)) return;
+    vec3 gradientU = cross(xv, m) / square, gradientV = cross(m, xu) / square;
+    mat2 J = point.tex.jacobian;
+    vec2 slopes = hasSlopes ? height.gradient / point.stretch : vec2(0);
+    s.gradientS = vec4(point.stretch * (J[0].x * gradientU + J[1].x * gradientV), slopes.x);
+    s.gradientT = vec4(point.stretch * (J[0].y * gradientU + J[1].y * gradientV), slopes.y);
 }
 
 // What belongs to the face that a point is seen from.
 void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
     s.normal = displacedNormal(point, height);
-    if (kHasTangents) addTangents(s, point, height);
+    if (kHasTexGradients) addTexGradients(s, point, height);
     s.st = point.tex.st;
     s.frame = point.frame;
     s.n = point.n;
@@ -184,8 +188,8 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
     if (count > 1u) direction = dot(direction, direction) > 1e-6 ? normalize(direction) : ownersNormal;
     precise vec3 q = displacedPoint(s.p, direction, s.h);
     s.q = q;
-    if (kHasTangents && !isOwn) {
-        // Tangents are those of the drawn face's texture coordinates, which may differ from the owner's.
+    if (kHasTexGradients && !isOwn) {
+        // Gradients are those of the drawn face's texture coordinates, which may differ from the owner's.
         Leaf leaf = findLeaf(face, faceUV);
         SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex, pose), leaf, faceUV, true);
         addAttributes(s, point, heightAt(point, location.level));

@@ -15,8 +15,8 @@ vec4 emitVertex(uint face, vec2 uv, SampleLocation location, uint rate) {
     vNormal = worldNormal(s.normal);
     vTexCoord = vec4(s.st, uv);
     vHeight = s.h;
-    vTangentS = kHasTangents ? worldTangent(s.tangentS) : vec4(0);
-    vTangentT = kHasTangents ? worldTangent(s.tangentT) : vec4(0);
+    vGradientS = kHasTexGradients ? worldGradient(s.gradientS) : vec4(0);
+    vGradientT = kHasTexGradients ? worldGradient(s.gradientT) : vec4(0);
     vFace = kPass == kPassLayers ? face : cageFaceOf(face);
     vRate = rate;
     vec4 vertex = vec4(s.q, (location.flags & kOnBoundary) != 0u ? 1.0 : 0.0);

@@ -1,5 +1,5 @@
-// A face drawn as a regular grid of push.columns x push.rows segments, one instance per face. Samples on a side move to the nearest
-// sample of the edge's own rate, which is never larger: both faces pass through exactly the same points.
+// A face drawn as a regular grid of push.columns x push.rows segments, one instance per face. Samples on a side move to the
+// nearest sample of the edge's own rate, which is never larger: both faces pass through exactly the same points.
 #include "displaced.glsl"
 #include "emit.glsl"
 

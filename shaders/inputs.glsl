@@ -21,7 +21,7 @@ layout(constant_id = kIdReadsRest) const bool kReadsRest = false; // heights dep
 #define kReadsRest kStretches
 #endif
 layout(constant_id = kIdHasWideIndices) const bool kHasWideIndices = false;
-layout(constant_id = kIdHasTangents) const bool kHasTangents = false;
+layout(constant_id = kIdHasTexGradients) const bool kHasTexGradients = false;
 layout(constant_id = kIdPass) const uint kPass = kPassSurface;
 
 RELIEF_TABLE(kBindRecords, uvec4, recordAt)
@@ -40,7 +40,8 @@ uint faceRoot(uint face) { return recordTexel(inputs.model.firstFace, kFaceTexel
 uint cageFaceOf(uint face) { return recordTexel(inputs.model.firstFace, kFaceTexels, face, 1u).y; }
 
 Face fetchFace(uint face) {
-    uvec4 a = recordTexel(inputs.model.firstFace, kFaceTexels, face, 0u), b = recordTexel(inputs.model.firstFace, kFaceTexels, face, 1u);
+    uvec4 a = recordTexel(inputs.model.firstFace, kFaceTexels, face, 0u);
+    uvec4 b = recordTexel(inputs.model.firstFace, kFaceTexels, face, 1u);
     return Face(a.x, uint[4](a.y, a.z, a.w, b.x), b.y);
 }
 
@@ -48,12 +49,15 @@ Incidence unpackIncidence(uvec4 a) { return Incidence(a.x, a.y & 255u, uintBitsT
 Incidence fetchIncidence(uint i) { return unpackIncidence(recordTexel(inputs.model.firstIncidence, kIncidenceTexels, i, 0u)); }
 
 // The weight of an incidence at a corner in the shared direction there: faces of one smooth sector share one vote.
-float sectorShare(uint incidence) { return 1.0 / float(recordTexel(inputs.model.firstIncidence, kIncidenceTexels, incidence, 0u).y >> 8); }
+float sectorShare(uint incidence) {
+    return 1.0 / float(recordTexel(inputs.model.firstIncidence, kIncidenceTexels, incidence, 0u).y >> 8);
+}
 
 Edge fetchEdge(uint i) {
     uvec4 a = recordTexel(inputs.model.firstEdge, kEdgeTexels, i, 0u);
     uint span = a.y >> 30, partner = a.z >> 30;
-    Incidence owner = Incidence(a.x & 0xfffffffu, a.x >> 28 & 3u, span == kSpanSecondHalf ? 0.5 : 0.0, span == kSpanFirstHalf ? 0.5 : 1.0);
+    Incidence owner = Incidence(a.x & 0xfffffffu, a.x >> 28 & 3u, span == kSpanSecondHalf ? 0.5 : 0.0,
+                                span == kSpanFirstHalf ? 0.5 : 1.0);
     uint incidences = a.w == kNoIncidence ? 0u : recordTexel(inputs.model.firstIncidence, kIncidenceTexels, a.w, 0u).y >> 8;
     uint other = partner == kPartnerNext ? i + 1u : partner == kPartnerBefore ? i - 1u : i;
     return Edge(owner, uint[2](a.y & 0x3fffffffu, a.z & 0x3fffffffu), a.w, incidences, other, a.x >> 30);

@@ -51,7 +51,7 @@ float keySpecular(float nl, float nv, float nh, float vh, float roughness, float
 // gradient noise (Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014).
 float keyVisibility(vec3 position, vec3 n) {
     if (inputs.light.hasShadows == 0.0) return 1.0;
-    // The disc reaches shadowSoftness to the side, where a tilted surface lies as much deeper as the sine of its tilt.
+    // The radius of the disc is shadowSoftness; at its rim a tilted surface lies as much deeper as the sine of its tilt.
     float tilt = length(cross(n, inputs.light.keyDirection));
     vec4 clip = inputs.light.toShadow * vec4(position + n * inputs.light.shadowBias * (0.5 + 2.0 * tilt), 1.0);
     float angle = 2.0 * kPi * fract(52.9829189 * fract(dot(vec2(gl_GlobalInvocationID.xy), vec2(0.06711056, 0.00583715))));
@@ -82,7 +82,8 @@ vec3 shaded(vec3 position, vec3 n, vec3 v, vec3 albedo, Material material) {
     if (nl > 0.0) {
         vec3 arriving = inputs.light.keyRadiance * keyVisibility(position, n);
         diffuse += arriving * nl / kPi;
-        specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), material.roughness, f0);
+        specular += arriving * keySpecular(nl, nv, clamp(dot(n, h), 0.0, 1.0), clamp(dot(v, h), 0.0, 1.0), material.roughness,
+                                           f0);
     }
     return albedo * diffuse + specular;
 }

@@ -28,7 +28,7 @@ layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false; // s
 
 // Where this is false all that evaluates texture coordinates folds away when a pipeline is made. A function, for Mesa 22.3's
 // CPU driver makes no pipeline of a constant that is computed from specialization constants.
-bool readsTexCoords() { return kHasTexCoords && (kHasHeight || kWantsTexCoords || kHasTangents); }
+bool readsTexCoords() { return kHasTexCoords && (kHasHeight || kWantsTexCoords || kHasTexGradients); }
 
 layout(constant_id = kIdGenericBasis) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
 
@@ -127,5 +127,7 @@ LimitFrame patchFrame(ControlPoints points, vec2 uv) {
 }
 
 // Derivatives by the face's (u,v) from those by the patch's own.
-LimitFrame byFace(LimitFrame f, float k) { return LimitFrame(f.p, k * f.pu, k * f.pv, k * k * f.puu, k * k * f.puv, k * k * f.pvv); }
+LimitFrame byFace(LimitFrame f, float k) {
+    return LimitFrame(f.p, k * f.pu, k * f.pv, k * k * f.puu, k * k * f.puv, k * k * f.pvv);
+}
 #endif

@@ -51,9 +51,13 @@ vec2 sidePoint(uint side, float x) {
 #endif
 }
 
-vec2 incidencePoint(Incidence incidence, float t) { return sidePoint(incidence.side, incidence.start + t * (incidence.end - incidence.start)); }
+vec2 incidencePoint(Incidence incidence, float t) {
+    return sidePoint(incidence.side, incidence.start + t * (incidence.end - incidence.start));
+}
 
-SampleLocation insideLocation(uint face, vec2 uv) { return SampleLocation(Incidence(face, 0u, 0.0, 0.0), 0u, 0u, 0.0, true, uv, 0u, faceLevel(face, uv)); }
+SampleLocation insideLocation(uint face, vec2 uv) {
+    return SampleLocation(Incidence(face, 0u, 0.0, 0.0), 0u, 0u, 0.0, true, uv, 0u, faceLevel(face, uv));
+}
 
 SampleLocation cornerLocation(uint corner) {
     Corner c = fetchCorner(corner);

@@ -1,4 +1,4 @@
-// What the shaders that pose a cage or a mesh share. They know nothing of a picture.
+// What the shaders that pose a cage or a mesh share. None of them depends on a picture.
 #extension GL_EXT_buffer_reference : require
 
 #include "tables.glsl"

@@ -17,6 +17,7 @@ vec3 rigged(uint point) {
 void main() {
     uint point = gl_GlobalInvocationID.x;
     if (point >= push.pointCount) return;
-    vec3 p = push.isRigged != 0u ? rigged(point) : vec3(uploaded(3u * point), uploaded(3u * point + 1u), uploaded(3u * point + 2u));
+    vec3 p = push.isRigged != 0u ? rigged(point)
+                                 : vec3(uploaded(3u * point), uploaded(3u * point + 1u), uploaded(3u * point + 2u));
     push.target.at[push.firstPoint + point] = vec4(p, 1.0);
 }

@@ -44,7 +44,8 @@ const uint kLanes = 8u, kMostEntries = 32u;
 shared vec3 points[kMostEntries];
 
 void blendStraight() {
-    uint lane = gl_LocalInvocationID.x, block = push.firstBlock + gl_WorkGroupID.x, first = push.firstBlockEntry + kEntries * gl_WorkGroupID.x;
+    uint lane = gl_LocalInvocationID.x, block = push.firstBlock + gl_WorkGroupID.x;
+    uint first = push.firstBlockEntry + kEntries * gl_WorkGroupID.x;
     [[unroll]] for (uint e = 0u; e < kEntries; e += kLanes) points[e + lane] = entryPoint(first + e + lane);
     barrier();
     vec3 origin = points[0], low = vec3(0), high = vec3(0);

@@ -3,8 +3,8 @@ layout(constant_id = kIdIsPlaced) const bool kIsPlaced = false;
 
 vec3 worldNormal(vec3 normal) { return kIsPlaced ? inputs.view.normalToWorld * normal : normal; }
 
-// A tangent with a slope in w.
-vec4 worldTangent(vec4 tangent) { return vec4(worldNormal(tangent.xyz), tangent.w); }
+// A gradient with a slope in w.
+vec4 worldGradient(vec4 gradient) { return vec4(worldNormal(gradient.xyz), gradient.w); }
 
 // The crack picture: vertices move aside when the parity of their position's bits is odd. Two samples that are meant to
 // be one and differ in the last bit then separate visibly.

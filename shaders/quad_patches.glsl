@@ -122,8 +122,9 @@ LimitFrame gregory(ControlPoints points, vec2 uv) {
             cuu = gxx * difference;
             cuv = gxy * du * dv * difference;
             cvv = gyy * difference;
-            // In the corner itself the second derivatives depend on the direction of approach: along x = y the product rule
-            // leaves this of the quotients, while all else that they meet vanishes.
+            // Near the corner u.w v.w is 9 x y to second order, so the difference of an isX pair has the weight
+            // 9 x^2 y / (x + y). Its second derivatives in the corner depend on the direction of approach; along x = y they
+            // are 9/4, 9/2 (mixed) and -9/4. g = 1/2 gives the mixed one below, the others are added here.
             float left = isCorner ? (isX ? 2.25 : -2.25) : 0.0;
             f.puu += left * difference;
             f.pvv -= left * difference;

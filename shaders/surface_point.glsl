@@ -95,7 +95,7 @@ PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsText
 
 SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
     bool hasTexture = wantsTexture && readsTexCoords();
-    bool hasRest = kReadsRest && wantsTexture && (kHasHeight || kHasTangents);
+    bool hasRest = kReadsRest && wantsTexture && (kHasHeight || kHasTexGradients);
     PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
     SurfacePoint point;
     point.frame = frames.surface;

@@ -26,7 +26,8 @@ LimitFrame weighted(Weights w, int count, ControlPoints points) {
 void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2 db) {
     float sum = a + b;
     if (sum <= 0.0) {
-        // In the corner itself second derivatives depend on the direction of approach: those along a = b, of 12 a b a / (a + b).
+        // In the corner itself second derivatives depend on the direction of approach: these are those of the weights
+        // 12 a b a / (a + b) and 12 a b b / (a + b) along a = b.
         for (int i = 0; i < 2; ++i) {
             vec2 x = i == 0 ? da : db, y = i == 0 ? db : da;
             w.duu[first + i] = 3.0 * x.x * x.x + 12.0 * x.x * y.x - 3.0 * y.x * y.x;

@@ -5,7 +5,8 @@ layout(location = 2) RELIEF_VARYING float vHeight;
 layout(location = 3) flat RELIEF_VARYING uint vFace; // of the cage; for layers that of the surface
 layout(location = 4) flat RELIEF_VARYING uint vRate; // largest of the face's sides
 
-// kHasTangents: derivative of the drawn surface by s and by t, in the world's directions; and how much of h_s and h_t the
-// normal has already. Where heights stretch with the surface both are divided by the stretch.
-layout(location = 5) RELIEF_VARYING vec4 vTangentS;
-layout(location = 6) RELIEF_VARYING vec4 vTangentT;
+// kHasTexGradients: the gradients of s and t along the drawn surface, in the world's directions, cage units; and how much of h_s
+// and h_t the normal has already. Where heights stretch with the surface, gradients are multiplied with the stretch and slopes
+// are those of the map.
+layout(location = 5) RELIEF_VARYING vec4 vGradientS;
+layout(location = 6) RELIEF_VARYING vec4 vGradientT;

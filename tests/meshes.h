@@ -168,7 +168,7 @@ inline Cage torusWithCollapsedTexture() {
     return cage;
 }
 
-/// Vertices 2 and 3 at one place: an edge without length.
+/// Vertices 2 and 3 at the same position: an edge without length.
 inline Cage cubeWithCollapsedEdge() {
     Cage cage = cube();
     cage.positions[2] = cage.positions[3];
@@ -360,7 +360,7 @@ struct NamedCage {
     Cage cage;
 };
 
-/// Every family above, for tests that must hold for all cages; summarize() tells which are closed or all triangles.
+/// Every family above, for tests that must hold for all cages; summarize() reports which are closed or all triangles.
 inline std::vector<NamedCage> allCages() {
     std::vector<NamedCage> cages;
     const auto add = [&](std::string name, Cage cage) { cages.push_back({std::move(name), std::move(cage)}); };

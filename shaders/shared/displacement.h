@@ -43,14 +43,10 @@ RELIEF_SHARED_FUNCTION real3 firstOrderNormal(real3 n, real3 pu, real3 pv, real2
     return cross(pu, pv) + dh.x * cross(n, pv) - dh.y * cross(n, pu);
 }
 
-// Blinn's normal of a surface that a renderer only knows by an interpolated unit normal n and tangents: m = p_s x p_t +
-// h_s (n x p_t)
-// - h_t (n x p_s), with n times its share of p_s x p_t in place of that. Turned to the side of n where texture
-// coordinates are mirrored. Zero where the tangents span no plane.
-RELIEF_SHARED_FUNCTION real3 bumpedNormal(real3 n, real3 ps, real3 pt, real2 gradient) {
-    real area = dot(n, cross(ps, pt));
-    real3 bend = gradient.x * cross(n, pt) - gradient.y * cross(n, ps);
-    return area < real(0) ? -area * n - bend : area * n + bend;
+// The same divided by |p_s x p_t|, by (s,t): n - h_s grad s - h_t grad t, for p_t x n = |p_s x p_t| grad s and
+// n x p_s = |p_s x p_t| grad t. Mirrored texture coordinates need no other sign.
+RELIEF_SHARED_FUNCTION real3 bumpedNormal(real3 n, real3 gradientS, real3 gradientT, real2 slopes) {
+    return n - slopes.x * gradientS - slopes.y * gradientT;
 }
 
 // q_u = p_u + h_u n + h n_u  (Lee, Moreton, Hoppe 2000, section 3); m = q_u x q_v.

@@ -94,7 +94,7 @@ struct Targets {
     RELIEF_ADDRESS(Vectors) captured;      // grid_capture.vert: position, 1 on a boundary
     RELIEF_ADDRESS(Vectors) dicedVertices; // as kBindMesh
     RELIEF_ADDRESS(Pairs) dicedTexCoords;
-    RELIEF_ADDRESS(Vectors) dicedTangents; // as kBindMeshTangents
+    RELIEF_ADDRESS(Vectors) dicedTexGradients; // as kBindMeshTexGradients
     RELIEF_ADDRESS(Words) dicedIndices;
     RELIEF_ADDRESS(Floats) layers;       // layers.comp: kLayerChannels floats per pixel
     RELIEF_ADDRESS(Materials) materials; // light.comp with kHasInstances: one per instance

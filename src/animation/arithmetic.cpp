@@ -41,7 +41,7 @@ struct Function {
 constexpr Function kFunctions[] = {
     {"sin", Step::sin, 1}, {"cos", Step::cos, 1}, {"abs", Step::abs, 1}, {"min", Step::min, 2}, {"max", Step::max, 2}};
 
-/// A function a level of the grammar, loosest first.
+/// One function per level of the grammar, from the operators that bind loosest.
 class ArithmeticReader {
 public:
     explicit ArithmeticReader(TextReader& text) : text_(text) {}
@@ -73,7 +73,7 @@ private:
         }
     }
 
-    void readSigned() { // whatever nests comes through here
+    void readSigned() { // everything that nests is read through this function
         if (++nesting_ > kDeepestNesting)
             failAtColumn(text_.column(), "parentheses, signs and powers are nested more than {} deep", kDeepestNesting);
         if (text_.take('-'))
@@ -152,7 +152,7 @@ double computed(Step step, double a, double b) {
     case Step::multiply: return a * b;
     case Step::divide: return a / b;
     case Step::power: return std::pow(a, b);
-    // A number that is none must not get lost in a comparison.
+    // Comparisons would hide a NaN.
     case Step::min: return std::isnan(a) || a < b ? a : b;
     default: return std::isnan(a) || a > b ? a : b;
     }

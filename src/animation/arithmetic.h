@@ -14,15 +14,15 @@ public:
     explicit TextReader(std::string_view text);
 
     [[nodiscard]] bool isAtEnd();
-    /// Where the next word starts, counted from 1.
+    /// The column where the next word starts, counted from 1.
     [[nodiscard]] std::size_t column();
-    /// Whether the next letter is this one, which is then passed.
+    /// Takes the next letter if it is this one; returns whether it was.
     bool take(char letter);
-    /// A word of letters, digits and underscores that starts with a letter; empty when there is none.
+    /// Takes a word of letters, digits and underscores that starts with a letter; empty when there is none.
     std::string_view takeWord();
     std::optional<double> takeNumber();
 
-    /// Throws Failure::usage: what stands here and what was expected instead.
+    /// Throws Failure::usage with what was found here and what was expected.
     [[noreturn]] void failExpecting(const std::string& expected);
     /// Throws Failure::usage for a word that is none of `known`, which are `what`.
     [[noreturn]] void failUnknown(std::string_view word, const std::string& what,
@@ -35,7 +35,7 @@ private:
     std::size_t next_ = 0;
 };
 
-/// Throws Failure::usage for deformers that cannot be read, at a column.
+/// Throws Failure::usage with a message about the given column of the deformers.
 template <typename... Args>
 [[noreturn]] void failAtColumn(std::size_t column, fmt::format_string<Args...> format, Args&&... args) {
     fail(Failure::usage, "deformers: column {}: {}", column, fmt::format(format, std::forward<Args>(args)...));
@@ -53,9 +53,9 @@ struct Arithmetic {
     [[nodiscard]] double at(double t) const;
 };
 
-/// From loose to tight: + and -; * and /; a sign; ^, which groups from the right (-2^2 is -4, 2^3^2 is 2^9); then
-/// numbers, t, pi, sin(x), cos(x), abs(x), min(x, y), max(x, y) and parentheses. Stops at the first word that cannot go
-/// on. Throws Failure::usage with the column.
+/// Reads arithmetic. From loosely to tightly bound: + and -; * and /; a sign; ^, which groups from the right (-2^2 is
+/// -4, 2^3^2 is 2^9); then numbers, t, pi, sin(x), cos(x), abs(x), min(x, y), max(x, y) and parentheses. Stops at the
+/// first word that cannot go on. Throws Failure::usage with the column.
 Arithmetic readArithmetic(TextReader& text);
 
 } // namespace relief

@@ -1,4 +1,4 @@
-// A cage a file: the points move, the faces stay.
+// Sequences of files with one cage each: the points move, the faces stay the same.
 #include "animation/frames.h"
 #include "animation/keys.h"
 

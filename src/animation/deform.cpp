@@ -1,4 +1,4 @@
-// Deformers in a row: their text, and the animation they make.
+// Deformers, one after another: their text, and the animation that they make.
 #include <algorithm>
 #include <cmath>
 
@@ -9,13 +9,13 @@
 namespace relief {
 namespace {
 
-constexpr double kStandInSeconds = 4; ///< what moves without an end is shown for so long
+constexpr double kStandInSeconds = 4; ///< the range of keys of a motion that has no end
 constexpr double kFarthest = 1e6; ///< diagonals of the box that a point may move: floats do not separate points there
 
 struct Deformer {
     const DeformerKind* kind = nullptr;
     std::size_t column = 0;
-    std::vector<Arithmetic> values; ///< one a value of the kind
+    std::vector<Arithmetic> values; ///< one per value of the kind
 };
 
 template <typename Kind>
@@ -113,10 +113,9 @@ std::vector<Deformer> readDeformers(const std::string& expression) {
 
 // --- posing ------------------------------------------------------------------------------------------------------
 
-/// In the coordinates of the poses that are deformed.
+/// The box around the faces of a cage, in the coordinates of the poses that are deformed.
 Bounds boxOf(const Cage& cage, const Coordinates& coordinates) {
-    Bounds box;
-    for (const std::uint32_t point : cage.corners) box.add(cage.positions[point]);
+    const Bounds box = computeBounds(cage.corners, [&](std::uint32_t point) { return cage.positions[point]; });
     if (coordinates == cage.coordinates) return box;
     const Bounds world = cage.coordinates.toWorld(box);
     return {.lower = coordinates.toLocal(world.lower), .upper = coordinates.toLocal(world.upper)};

@@ -8,7 +8,7 @@
 
 namespace relief {
 
-/// Where a point goes; none: all points stay to the bit.
+/// Maps a point to its deformed position. Empty: all points stay, to the bit.
 using Move = std::function<dvec3(const dvec3&)>;
 
 /// What a deformer is made of for one pose.
@@ -31,11 +31,11 @@ struct ValueKind {
 struct DeformerKind {
     std::string name, help;
     std::vector<ValueKind> values;
-    int speedValue = -1; ///< the value that moves it on with time by itself
+    int speedValue = -1; ///< index of the value that makes it move with time; -1: none
     Move (*make)(const DeformerMoment& moment);
 };
 
-/// All of them, in the order of their help.
+/// The table of all deformers, in the order in which help lists them.
 const std::vector<DeformerKind>& deformerKinds();
 
 } // namespace relief

@@ -6,7 +6,7 @@
 namespace relief {
 namespace {
 
-/// From an array with `groupSize` entries per point, the entries of `points`, in their order.
+/// Selects the entries of `points`, in their order, from an array with `groupSize` entries per point.
 template <typename Value>
 std::vector<Value> gatherGroups(const Value* from, const std::vector<std::uint32_t>& points, std::size_t groupSize) {
     std::vector<Value> to;

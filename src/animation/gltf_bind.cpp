@@ -34,56 +34,56 @@ std::vector<Source> sourcesOf(const GltfScene& scene) {
     return sources;
 }
 
-// --- which vertex is whose --------------------------------------------------------------------------------------
+// --- which vertex each cage point follows ------------------------------------------------------------------------
 
 bool isFinite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-/// Where all vertices are in the cage's coordinates when nothing moves; as floats to the bit as a cage from this file
-/// has them.
-std::vector<dvec3> restPlaces(const GltfScene& scene, const Cage& cage, const std::vector<Source>& sources,
-                              const std::string& path) {
+/// The positions of all vertices when nothing moves, in the cage's coordinates; rounded to floats they have the same
+/// bits as those of a cage that was read from this file.
+std::vector<dvec3> restPositions(const GltfScene& scene, const Cage& cage, const std::vector<Source>& sources,
+                                 const std::string& path) {
     const std::vector<glm::dmat4> worlds = worldMatrices(scene, restTransforms(scene));
     std::vector<glm::dmat4> joints;
-    std::vector<dvec3> places;
-    places.reserve(sources.size());
+    std::vector<dvec3> positions;
+    positions.reserve(sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i) {
         const auto& [node, primitive, vertex] = sources[i];
         if (i == 0 || node != sources[i - 1].node) joints = jointMatrices(scene, node, worlds, cage.coordinates);
         const glm::dmat4 matrix = blendedMatrix(*primitive, vertex, scene.nodes[node].skin >= 0, joints);
         const dvec3 morphed = morphedPosition(*primitive, vertex, scene.nodes[node].weights);
-        places.emplace_back(matrix * glm::dvec4(morphed, 1));
-        if (!isFinite(vec3(places.back())))
+        positions.emplace_back(matrix * glm::dvec4(morphed, 1));
+        if (!isFinite(vec3(positions.back())))
             fail(Failure::input, "{}: nodes/{}: its vertex {} does not stand at finite numbers", path, node, vertex);
     }
-    return places;
+    return positions;
 }
 
-std::vector<dvec3> asFloats(std::vector<dvec3> places) {
-    for (dvec3& place : places) place = vec3(place);
-    return places;
+std::vector<dvec3> asFloats(std::vector<dvec3> positions) {
+    for (dvec3& position : positions) position = vec3(position);
+    return positions;
 }
 
-/// Where they would be if the spaces of their meshes were the world.
-std::vector<dvec3> meshPlaces(const Cage& cage, const std::vector<Source>& sources) {
-    std::vector<dvec3> places;
-    places.reserve(sources.size());
+/// The positions that vertices would have if the spaces of their meshes were the world.
+std::vector<dvec3> meshPositions(const Cage& cage, const std::vector<Source>& sources) {
+    std::vector<dvec3> positions;
+    positions.reserve(sources.size());
     for (const Source& source : sources)
-        places.push_back(cage.coordinates.toLocal(source.primitive->positions[source.vertex]));
-    return places;
+        positions.push_back(cage.coordinates.toLocal(source.primitive->positions[source.vertex]));
+    return positions;
 }
 
 /// The nearest vertex of each cage point.
 struct Match {
     std::vector<std::uint32_t> sources;
     std::vector<double> distances;
-    bool isAtRest = true; ///< by the vertices' places in the world at rest, not in their meshes
-    Bounds bounds;        ///< of those places at rest of the vertices that are matched, in the cage's coordinates
+    bool isAtRest = true; ///< by the vertices' positions in the world at rest, not in their meshes
+    Bounds bounds;        ///< of those positions at rest of the vertices that are matched, in the cage's coordinates
 
     [[nodiscard]] double largestDistance() const { return *std::max_element(distances.begin(), distances.end()); }
 };
 
-Match matchNearest(const Cage& cage, std::vector<dvec3> places, bool isAtRest) {
-    const PointTree tree(std::move(places));
+Match matchNearest(const Cage& cage, std::vector<dvec3> positions, bool isAtRest) {
+    const PointTree tree(std::move(positions));
     Match match{.sources = {}, .distances = {}, .isAtRest = isAtRest, .bounds = {}};
     for (const vec3& position : cage.positions) {
         const dvec3 p(position);
@@ -100,14 +100,15 @@ Match matchNearest(const Cage& cage, std::vector<dvec3> places, bool isAtRest) {
     return match;
 }
 
-/// The match of a cage that was read from this very file (readCage): its points are the places of each node's vertices,
-/// in their order and each once. By distance alone, nodes that meet would take each other's points.
-std::optional<Match> matchOwn(const Cage& cage, const std::vector<Source>& sources, const std::vector<dvec3>& places) {
+/// The match of a cage that was read from this very file (readCage): its points are the positions of each node's
+/// vertices, in their order and each once. By distance alone, nodes that meet would take each other's points.
+std::optional<Match> matchOwn(const Cage& cage, const std::vector<Source>& sources,
+                              const std::vector<dvec3>& positions) {
     Match match;
     std::set<std::array<double, 3>> ofNode;
     for (std::uint32_t i = 0; i < sources.size(); ++i) {
         if (i > 0 && sources[i].node != sources[i - 1].node) ofNode.clear();
-        const dvec3 p = places[i] + dvec3(0); // both zeros are one
+        const dvec3 p = positions[i] + dvec3(0); // both zeros are one
         if (!ofNode.insert({p.x, p.y, p.z}).second) continue;
         const std::size_t point = match.sources.size();
         if (point >= cage.positions.size() || dvec3(cage.positions[point]) != p) return std::nullopt;
@@ -126,7 +127,7 @@ void checkExact(const Match& match, const Cage& cage, double tolerance, const st
     const dvec3 p = cage.coordinates.toWorld(cage.positions[point]);
     const int digits = cage.coordinates.isIdentity() ? 7 : 15;
     fail(Failure::input,
-         "{}: {} of {} cage points have no vertex at their place; point {} at ({:.{}g}, {:.{}g}, {:.{}g}) is {:.4g} "
+         "{}: {} of {} cage points have no vertex at their position; point {} at ({:.{}g}, {:.{}g}, {:.{}g}) is {:.4g} "
          "away from the nearest; --bind-nearest takes that one",
          path, std::count_if(match.distances.begin(), match.distances.end(), isOff), cage.positions.size(), point, p.x,
          digits, p.y, digits, p.z, digits, *first * cage.coordinates.unit);
@@ -135,13 +136,13 @@ void checkExact(const Match& match, const Cage& cage, double tolerance, const st
 Match matchCage(const GltfScene& scene, const Cage& cage, const std::vector<Source>& sources, bool bindsNearest,
                 const std::string& path) {
     const double tolerance = kTolerance * computeBounds(cage.positions).diagonal();
-    const std::vector<dvec3> places = restPlaces(scene, cage, sources, path);
-    const std::vector<dvec3> rounded = asFloats(places);
+    const std::vector<dvec3> positions = restPositions(scene, cage, sources, path);
+    const std::vector<dvec3> rounded = asFloats(positions);
     if (std::optional<Match> own = matchOwn(cage, sources, rounded)) return *own;
     Match atRest = matchNearest(cage, rounded, true);
     if (atRest.largestDistance() <= tolerance) return atRest;
-    Match inMeshes = matchNearest(cage, meshPlaces(cage, sources), false);
-    inMeshes.bounds = computeBounds(inMeshes.sources, [&](std::uint32_t source) { return places[source]; });
+    Match inMeshes = matchNearest(cage, meshPositions(cage, sources), false);
+    inMeshes.bounds = computeBounds(inMeshes.sources, [&](std::uint32_t source) { return positions[source]; });
     if (inMeshes.largestDistance() <= tolerance) return inMeshes;
     if (!bindsNearest) checkExact(atRest, cage, tolerance, path);
     return atRest;
@@ -166,7 +167,7 @@ public:
             coordinatesFor(computeBounds(match_.sources, [&](std::uint32_t source) { return positionOf(source); }));
     }
 
-    /// Joints, weights and morph offsets; rest is the vertices' own.
+    /// Makes the rig of the vertices' joints, weights and morph offsets, with the vertices' own positions at rest.
     GltfBinding bind() {
         for (const std::uint32_t source : match_.sources) influences_.push_back(influencesOf(sources_[source]));
         packInfluences();
@@ -219,7 +220,7 @@ Influences Binder::influencesOf(const Source& source) {
     return influences;
 }
 
-/// Points with fewer joints than others get joints without weight.
+/// Gives all points as many joints; those that a point lacks have no weight.
 void Binder::packInfluences() {
     Rig& rig = binding_.rig;
     rig.jointCount = std::uint32_t(binding_.joints.size());
@@ -232,7 +233,7 @@ void Binder::packInfluences() {
         }
 }
 
-/// Morph targets of each node that has some; they leave the points of other nodes where they are.
+/// Adds the morph targets of all nodes; they do not move the points of other nodes.
 void Binder::addMorphs() {
     std::map<std::uint32_t, std::uint32_t> firstMorphs; // by node
     for (const std::uint32_t source : match_.sources) {
@@ -257,7 +258,7 @@ void Binder::addMorphs() {
 
 // --- points between vertices ------------------------------------------------------------------------------------
 
-/// Joints of the rig at rest as a pose has them.
+/// The matrices of the rig's joints when no animation moves them.
 std::vector<glm::dmat4> restJoints(const GltfScene& scene, const GltfBinding& binding) {
     const std::vector<glm::dmat4> worlds = worldMatrices(scene, restTransforms(scene));
     std::vector<glm::dmat4> joints;
@@ -266,9 +267,9 @@ std::vector<glm::dmat4> restJoints(const GltfScene& scene, const GltfBinding& bi
     return joints;
 }
 
-/// Rest such that the pose at rest has the cage's own points. Returns how many cannot have it: their joints flatten
-/// space.
-std::size_t keepPlaces(const GltfScene& scene, const Cage& cage, GltfBinding& binding) {
+/// Chooses the rig's rest points such that the pose at rest has the cage's own points. Returns for how many there are
+/// none, because their joints flatten space.
+std::size_t keepCagePositions(const GltfScene& scene, const Cage& cage, GltfBinding& binding) {
     const std::vector<glm::dmat4> joints = restJoints(scene, binding);
     Rig& rig = binding.rig;
     std::size_t flatCount = 0;
@@ -289,7 +290,7 @@ std::size_t keepPlaces(const GltfScene& scene, const Cage& cage, GltfBinding& bi
     return flatCount;
 }
 
-/// Poses of a cage that fits the vertices at rest stay where it is; others go where the nodes put them.
+/// Poses have the cage's coordinates where it fits the vertices at rest, else ones near the vertices in the world.
 Coordinates posedCoordinates(const Match& match, const Cage& cage) {
     if (match.isAtRest) return cage.coordinates;
     Coordinates coordinates = coordinatesFor(cage.coordinates.toWorld(match.bounds));
@@ -297,7 +298,7 @@ Coordinates posedCoordinates(const Match& match, const Cage& cage) {
     return coordinates;
 }
 
-/// Joints take points of `coordinates`.
+/// Makes the joints take points in `coordinates`.
 void startFrom(const Coordinates& coordinates, GltfBinding& binding) {
     binding.rest = coordinates;
     if (coordinates.isIdentity()) return;
@@ -323,9 +324,9 @@ GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest
     }
     startFrom(takesCage ? cage.coordinates : binding.rest, binding);
     if (takesCage || !bindsNearest) return binding;
-    const std::size_t flatCount = keepPlaces(scene, cage, binding);
+    const std::size_t flatCount = keepCagePositions(scene, cage, binding);
     if (flatCount > 0)
-        warn(fmt::format("{}: the joints of {} cage points have no volume at rest; they take the vertices' places",
+        warn(fmt::format("{}: the joints of {} cage points have no volume at rest; they take the vertices' positions",
                          path, flatCount));
     return binding;
 }

@@ -25,7 +25,8 @@ struct GltfBinding {
     Coordinates posed;             ///< of poses, in the world
 };
 
-/// Throws as readSkin where a cage point finds no vertex; `path` is the file's.
+/// Binds each cage point to the vertex that it follows. `path`: of the file, for messages. Throws as readSkin where a
+/// point has no vertex.
 GltfBinding bindCage(const GltfScene& scene, const Cage& cage, bool bindsNearest, const std::string& path,
                      const Warn& warn);
 

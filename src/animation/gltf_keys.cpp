@@ -9,7 +9,7 @@ namespace {
 /// Parts of a key of a cubic spline, in the order of the file.
 enum Part { kInTangent, kValue, kOutTangent };
 
-/// Between two keys: the first, and how far on from it.
+/// A time between two keys: the first of them, and how far the time is from it.
 struct Moment {
     std::size_t key = 0;
     double t = 0;        ///< 0..1
@@ -31,7 +31,7 @@ double numberOf(const GltfChannel& channel, std::size_t key, Part part, std::siz
     return channel.values[(isCubic ? 3 * key + part : key) * channel.width + i];
 }
 
-/// One number of the value (glTF 2.0, appendix C.3 to C.5); tangents are per second.
+/// Interpolates one number of the value (glTF 2.0, appendix C.3 to C.5); tangents are per second.
 double interpolated(const GltfChannel& channel, const Moment& at, std::size_t i) {
     const double v0 = numberOf(channel, at.key, kValue, i);
     if (at.distance == 0) return v0;
@@ -47,7 +47,7 @@ dvec3 vectorAt(const GltfChannel& channel, const Moment& at) {
     return {interpolated(channel, at, 0), interpolated(channel, at, 1), interpolated(channel, at, 2)};
 }
 
-/// Unit; no turn where a spline passes through zero.
+/// Normalises a rotation; no rotation where a spline passes through zero.
 glm::dquat unit(const glm::dquat& q) { return glm::length(q) > 0 ? glm::normalize(q) : glm::dquat(1, 0, 0, 0); }
 
 glm::dquat rotationOf(const GltfChannel& channel, std::size_t key) {
@@ -55,7 +55,7 @@ glm::dquat rotationOf(const GltfChannel& channel, std::size_t key) {
     return unit({part(3), part(0), part(1), part(2)});
 }
 
-/// Linear ones turn steadily, the short way round (appendix C.4).
+/// Rotations between two keys are interpolated at constant speed, the short way round (appendix C.4).
 glm::dquat rotationAt(const GltfChannel& channel, const Moment& at) {
     if (channel.interpolation == GltfInterpolation::cubicSpline)
         return unit({interpolated(channel, at, 3), interpolated(channel, at, 0), interpolated(channel, at, 1),

@@ -1,4 +1,4 @@
-// The keys of a glTF clip at a time.
+// Values of the keys of a glTF clip at a time.
 #pragma once
 
 #include "base/base.h"
@@ -6,13 +6,13 @@
 
 namespace relief {
 
-/// What moves in a clip: one of each a node.
+/// What a clip moves: one entry per node.
 struct GltfMotion {
     std::vector<GltfTransform> transforms;
     std::vector<std::vector<double>> weights; ///< of morph targets
 };
 
-/// Replaces what the clip moves by its value at a time; before the first key and after the last it is theirs.
+/// Replaces what the clip moves by its value at a time: that of the first key before it, that of the last after it.
 void applyClip(const GltfClip& clip, double seconds, GltfMotion& motion);
 
 /// Seconds of the earliest and the latest key; (0, 0) without keys or with one time only.

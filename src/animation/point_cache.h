@@ -1,5 +1,5 @@
 // The bytes of .pc2 (little endian: magic, version, points, start frame, sample rate, samples, positions) and .mdd (big
-// endian: frames, points, a time a frame, positions); all numbers have 32 bits.
+// endian: frames, points, one time per frame, positions); all numbers have 32 bits.
 #pragma once
 
 #include <bit>

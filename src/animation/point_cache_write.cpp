@@ -42,7 +42,7 @@ std::string pc2Header(const std::string& path, const CacheHeader& header) {
     putWord(bytes, 1, kPc2Order);
     putWord(bytes, header.pointCount, kPc2Order);
     putFloat(bytes, start, kPc2Order);
-    putFloat(bytes, 1, kPc2Order); // frames a sample
+    putFloat(bytes, 1, kPc2Order); // frames per sample
     putWord(bytes, header.frameCount, kPc2Order);
     return bytes;
 }
@@ -81,6 +81,7 @@ void writePointCache(const std::string& path, const CacheHeader& header,
         fail(Failure::usage, "{}: unknown kind of point cache '{}'; use .pc2 or .mdd", path, extension);
     checkHeader(path, header);
 
+    // Errors throw out of writeWhole, which then leaves the target as it was.
     writeWhole(path, [&](const std::string& temporary) {
         std::ofstream file(temporary, std::ios::binary);
         const auto check = [&] {
@@ -90,6 +91,7 @@ void writePointCache(const std::string& path, const CacheHeader& header,
             file.write(bytes.data(), std::streamsize(bytes.size()));
             check();
         };
+        // Pose after pose: memory holds one at a time.
         put(isPc2 ? pc2Header(path, header) : mddHeader(path, header));
         for (std::uint32_t k = 0; k < header.frameCount; ++k) {
             const std::vector<vec3> pose = positions(k);

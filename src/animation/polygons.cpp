@@ -1,4 +1,4 @@
-// Normals of plain polygons that move. Nobody says where a given normal goes; the faces around it do.
+// Normals of plain polygons that move: caches and skins have none, so they are turned with the faces around them.
 #include <cmath>
 #include <unordered_map>
 
@@ -36,7 +36,7 @@ dvec3 turned(const dvec3& n, const CornerFrame& rest, const CornerFrame& posed) 
 void turnNormals(Cage& cage, std::span<const vec3> restPositions) {
     if (cage.normalCorners.empty()) return;
     // A normal that faces share at a point stays shared; where they share it at several points, each has its own.
-    std::unordered_map<std::uint64_t, std::uint32_t> places; // by point and normal
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers; // by point and normal
     std::vector<dvec3> sums;
     std::vector<vec3> given;
     std::size_t first = 0;
@@ -46,10 +46,10 @@ void turnNormals(Cage& cage, std::span<const vec3> restPositions) {
             const std::uint32_t before = cage.corners[first + (i + size - 1) % size], point = cage.corners[corner],
                                 next = cage.corners[first + (i + 1) % size];
             std::uint32_t& normal = cage.normalCorners[corner];
-            const auto [place, isNew] =
-                places.try_emplace(std::uint64_t(point) << 32 | normal, std::uint32_t(sums.size()));
+            const auto [number, isNew] =
+                numbers.try_emplace(std::uint64_t(point) << 32 | normal, std::uint32_t(sums.size()));
             if (isNew) sums.emplace_back(0), given.push_back(cage.normals[normal]);
-            normal = place->second;
+            normal = number->second;
             const auto frame = [&](const auto& p) { return CornerFrame(p[before], p[point], p[next]); };
             const CornerFrame posed = frame(cage.positions);
             sums[normal] += glm::length(posed.area) * turned(given[normal], frame(restPositions), posed);

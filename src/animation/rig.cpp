@@ -1,4 +1,4 @@
-// Poses on the processor: the oracle of what the device does.
+// Poses on the host: the reference of what the device computes.
 #include "animation/animation.h"
 
 namespace relief {

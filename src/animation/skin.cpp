@@ -8,7 +8,7 @@ namespace {
 
 class Skin : public Animation {
 public:
-    /// The scene is without meshes.
+    /// `scene`: without its meshes, which are not needed any more.
     Skin(std::string path, GltfScene scene, GltfBinding binding)
         : Animation(binding.posed), path_(std::move(path)), scene_(std::move(scene)), binding_(std::move(binding)) {}
 
@@ -35,7 +35,7 @@ public:
     [[nodiscard]] dvec2 keyRange() const override { return scene_.clip ? keyRangeOf(*scene_.clip) : dvec2(0); }
 
 private:
-    /// Finite numbers may still multiply past all floats.
+    /// Throws where products of finite numbers are beyond the range of floats.
     void checkFinite(const vec4& numbers, const char* what, std::uint32_t node, double seconds) const {
         for (int k = 0; k < 4; ++k)
             if (!std::isfinite(numbers[k]))

@@ -67,7 +67,7 @@ struct Report {
     }
 };
 
-/// Where the frames go, and who is told of warnings.
+/// Where frames are written and warnings are reported.
 struct Sink {
     const Warn& warn;
     std::function<void(const DrawnFrame&)> write;

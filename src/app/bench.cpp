@@ -4,6 +4,7 @@
 
 #include "app/commands.h"
 #include "app/object_options.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/picture_options.h"
 #include "app/render_process.h"
@@ -131,10 +132,14 @@ void addFiles(CLI::App& app, BenchArgs& args) {
 Run addBench(CLI::App& app) {
     // What is measured.
     auto args = std::make_shared<BenchArgs>();
-    std::vector<std::string> suites;
-    for (const Suite suite : allSuites()) suites.emplace_back(toWord(suite));
-    app.add_option("suites", args->suites, fmt::format("{} (all)", fmt::join(suites, ", ")))
-        ->check(CLI::IsMember(suites))
+    std::vector<WordHelp> suites;
+    std::vector<std::string> names;
+    for (const Suite suite : allSuites()) {
+        suites.push_back({toWord(suite), ""});
+        names.emplace_back(toWord(suite));
+    }
+    app.add_option("suites", args->suites, fmt::format("{} (all)", fmt::join(names, ", ")))
+        ->check(oneOf(suites))
         ->option_text("SUITE...");
     app.add_flag("--quick", args->isQuick, "small scenes, few rounds: half a minute, for a first look");
     app.add_option("--cage", args->object.cage, "a cage of your own (.obj), with its --height")->option_text("CAGE");

@@ -26,11 +26,13 @@ void addBroken(std::vector<std::string>& broken, const PathReport& report) {
 
 // --- JSON
 
-json makePlaceJson(const SurfacePlace& place) { return {{"face", place.face}, {"u", place.uv.x}, {"v", place.uv.y}}; }
+json makeLocationJson(const SurfaceLocation& location) {
+    return {{"face", location.face}, {"u", location.uv.x}, {"v", location.uv.y}};
+}
 
 json makePathJson(const PathReport& report, const Coordinates& coordinates) {
     const Watertightness& w = report.triangles;
-    const dvec3 worst = coordinates.toWorld(w.worstPlace);
+    const dvec3 worst = coordinates.toWorld(w.worstLocation);
     return {{"path", report.path},
             {"watertight", w.isWatertight() && report.crackPixels.value_or(0) == 0},
             {"triangles", w.triangles},
@@ -48,7 +50,7 @@ json makePathJson(const PathReport& report, const Coordinates& coordinates) {
 }
 
 json makeErrorJson(const ErrorSummary& error) {
-    return {{"max", error.max}, {"rms", error.rms}, {"max_at", makePlaceJson(error.worst)}};
+    return {{"max", error.max}, {"rms", error.rms}, {"max_at", makeLocationJson(error.worst)}};
 }
 
 json makeRegionJson(const RegionErrors& errors) {
@@ -63,20 +65,21 @@ json makeRegionJson(const RegionErrors& errors) {
 }
 
 json makeCornersJson(const CornerReport& corners) {
-    return {
-        {"count", corners.count}, {"normal_turn_max_degrees", corners.max}, {"max_at", makePlaceJson(corners.worst)}};
+    return {{"count", corners.count},
+            {"normal_turn_max_degrees", corners.max},
+            {"max_at", makeLocationJson(corners.worst)}};
 }
 
 json makeCurvatureJson(const CurvatureReport& report) {
     return {{"points", report.count},
             {"points_without_curvature", report.countWithoutCurvature},
             {"min_one_plus_h_kappa", report.lowestFactor},
-            {"min_at", makePlaceJson(report.lowestAt)},
+            {"min_at", makeLocationJson(report.lowestAt)},
             {"area", report.area},
             {"folded_area", report.foldedArea},
             {"folded_fraction", report.foldedFraction()},
             {"first_order_normal_max_degrees", report.maxNormalAngle},
-            {"first_order_normal_max_at", makePlaceJson(report.maxNormalAngleAt)},
+            {"first_order_normal_max_at", makeLocationJson(report.maxNormalAngleAt)},
             {"first_order_normal_mean_degrees", report.meanNormalAngle}};
 }
 
@@ -86,13 +89,13 @@ json makeSeamsJson(const SeamReport& seams, double displacementBound) {
             {"disagreement_max", seams.max},
             {"disagreement_mean", seams.mean},
             {"max_of_displacement_bound", displacementBound > 0 ? seams.max / displacementBound : 0},
-            {"max_at", makePlaceJson(seams.worst)}};
+            {"max_at", makeLocationJson(seams.worst)}};
 }
 
 // --- text
 
-std::string describe(const SurfacePlace& place) {
-    return fmt::format("face {} ({:.4g}, {:.4g})", place.face, place.uv.x, place.uv.y);
+std::string describe(const SurfaceLocation& location) {
+    return fmt::format("face {} ({:.4g}, {:.4g})", location.face, location.uv.x, location.uv.y);
 }
 
 std::string makePathTable(const Certificate& c) {

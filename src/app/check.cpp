@@ -43,7 +43,7 @@ public:
         RenderOptions options{args_.triangles.options};
         options.path = path;
         options.lighting.castsShadows = false;
-        for (const dvec3& p : points_) options.bounds.add(p);
+        options.bounds = computeBounds(points_);
         PathReport report{.path = wordOf(kPaths, path), .triangles = checkTriangles(options)};
         if (canSeeCracks_) report.crackPixels = countCrackPixels(options, shift);
         return report;
@@ -183,11 +183,13 @@ int check(const CheckArgs& args) {
 } // namespace
 
 Run addCheck(CLI::App& app) {
+    // What is certified.
     auto args = std::make_shared<CheckArgs>();
     addObject(app, args->object);
     addTime(app, args->object.motion);
     addPath(app, args->triangles.path, "all that the device can read back");
     addTriangles(app, args->triangles.options);
+    // How closely, and where results go.
     app.add_option("--points", args->pointCount,
                    fmt::format("about how many points are compared with the double-precision reference (default: {})",
                                args->pointCount))

@@ -54,7 +54,7 @@ int exitCodeOf(pid_t process) {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-/// The options of each format, because the temporary file's name does not tell ffmpeg. Players expect even sides and
+/// The options of each format, which ffmpeg cannot see from the temporary file's name. Players expect even sides and
 /// 4:2:0 in an .mp4; a .gif gets a palette of its own colors.
 Words encoding(const std::string& extension) {
     if (extension == ".mp4")

@@ -17,6 +17,8 @@ Run addExport(CLI::App& app);
 Run addSample(CLI::App& app);
 Run addCheck(CLI::App& app);
 Run addBench(CLI::App& app);
+Run addNormalMap(CLI::App& app);
+Run addHeightMap(CLI::App& app);
 Run addInfo(CLI::App& app);
 
 } // namespace relief::app

@@ -9,10 +9,10 @@ namespace {
 /// Squares and products of larger numbers pass the end of 32-bit floats.
 constexpr double kFarthestDrawn = 1e18;
 
-/// Of the largest distance: what points may miss a line by and still have no area that floats can show.
+/// Points that miss a line by less than this share of their extent have no area that floats can show.
 constexpr double kNoWidth = 1e-7;
 
-/// Where points are in the picture: pixels right and down of its top left corner, and depths along the view.
+/// The box of points in the picture: pixels right and down of its top left corner, and depths along the view.
 struct Extent {
     dvec2 lower{1e300}, upper{-1e300};
     double nearest = 1e300, farthest = -1e300;
@@ -21,7 +21,7 @@ struct Extent {
     [[nodiscard]] dvec2 size() const { return upper - lower; }
 };
 
-/// The box in the picture is of the points in front of the camera.
+/// Computes the extent of the points; only those in front of the camera count for the box.
 Extent extentOf(const EmptyView& view) {
     const Camera& camera = view.camera;
     const dvec3 forward = glm::normalize(camera.target - camera.eye);
@@ -70,7 +70,7 @@ std::string faultOf(const EmptyView& view) {
     return "";
 }
 
-/// What is wrong with how it is looked at.
+/// What is wrong with the camera; "" for nothing.
 std::string faultOfCamera(const EmptyView& view) {
     const Extent extent = extentOf(view);
     if (!extent.isInFront()) return "it lies behind the camera; see --look-at and --distance";

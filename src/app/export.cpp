@@ -40,6 +40,7 @@ EdgeRates computeRates(Device& device, const SurfaceModel& model, const LoadedOb
 
 /// Whatever made the mesh is freed before the mesh is written.
 Exported dice(const ExportArgs& args) {
+    // The object on the host, then on the device.
     Progress progress("dicing", 4, args.output.progress);
     const ObjectDesc& desc = args.scene.object;
     LoadedObject object = load(desc, CageState::posed, makeWarn(args.output.isQuiet));
@@ -78,6 +79,7 @@ void report(const ExportArgs& args, const Exported& exported) {
     const std::size_t vertexCount = exported.mesh.positions.size(), triangleCount = exported.mesh.indices.size() / 3;
     const std::uint64_t bytes = std::filesystem::file_size(args.target);
     if (args.output.isJson) {
+        // Programs read these names.
         printJson({{"mesh", args.target},
                    {"device", exported.device},
                    {"vertices", vertexCount},
@@ -90,6 +92,7 @@ void report(const ExportArgs& args, const Exported& exported) {
                    {"dice_ms", exported.diceMs},
                    {"write_ms", 1e3 * exported.writeSeconds}});
     } else if (!args.output.isQuiet) {
+        // One line for people, and a second one with the time of every step.
         std::cerr << fmt::format("{}: {} vertices, {} triangles, {}, diced on {}\n", args.target, vertexCount,
                                  triangleCount, humanBytes(bytes), exported.device);
         if (args.output.isVerbose)

@@ -50,7 +50,7 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
         if (wantsMotion(args.picture))
             fail(Failure::usage, "{}: the layer of motion is not known for plain polygons; name their --scheme",
                  desc.cage);
-        polygons_.emplace(object.cage, *object.animation);
+        polygons_.emplace(object.cage, *object.animation, object.needsTangents);
     }
     frames_ = listFrames(args, object.animation.get());
     device_ = std::make_unique<Device>(DeviceDesc{.name = args.picture.device});
@@ -79,7 +79,7 @@ std::vector<double> FrameMaker::measuredTimes() const {
 void FrameMaker::placeScene() {
     const SceneDesc& scene = args_.scene;
     const std::vector<dvec3> points = computeOutlineOfAll(loaded_.object);
-    for (const dvec3& p : points) bounds_.add(p);
+    bounds_ = computeBounds(points);
     camera_ = holdAllPoints(toLocal(loaded_.object.coordinates(), scene.camera), points,
                             double(scene.size.x) / scene.size.y, args_.turntableCount > 0);
 }
@@ -108,7 +108,7 @@ void FrameMaker::makeModel() {
     malloc_trim(0);
 }
 
-/// Of the object in the pose that is drawn, or in all poses where the device does not move it.
+/// The box around the object in the pose that is drawn, or in all poses where the device does not move it.
 Bounds FrameMaker::boundsNow() const {
     if (poser_) return poser_->bounds();
     return meshPoser_ ? polygonBounds_ : bounds_;
@@ -138,10 +138,11 @@ Pose FrameMaker::poseAt(int frame) const {
 void FrameMaker::posePolygons(int frame, DrawnFrame& drawn) {
     const double start = secondsNow();
     const DenseMesh mesh = polygons_->makeMesh(toSeconds(frame, args_.scene.object.motion));
-    drawn.uploadedBytes = meshPoser_->upload(mesh.positions, mesh.normals);
+    std::optional<Tangents> tangents;
+    if (loaded_.object.needsTangents) tangents = computeTangents(mesh);
+    drawn.uploadedBytes = meshPoser_->upload(mesh, tangents ? &*tangents : nullptr);
     drawn.poseMs = 1e3 * (secondsNow() - start);
-    polygonBounds_ = {};
-    for (const vec3& p : mesh.positions) polygonBounds_.add(dvec3(p));
+    polygonBounds_ = computeBounds(mesh.positions);
 }
 
 DrawnFrame FrameMaker::draw(int frame) {
@@ -156,7 +157,8 @@ DrawnFrame FrameMaker::draw(int frame) {
     if (meshPoser_) posePolygons(frame, drawn);
     if (auto* surface = std::get_if<SurfaceModel>(model_.get()))
         surface->setTime(toSeconds(frame, args_.scene.object.motion), toSeconds(frame - 1, args_.scene.object.motion));
-    drawn.picture = renderer_->render(Instance(*model_, makeMaterial(args_.scene.object.material)), optionsAt(frame));
+    const Material material = makeMaterial(args_.scene.object.material, loaded_.object.textureColor);
+    drawn.picture = renderer_->render(Instance(*model_, material), optionsAt(frame));
     return drawn;
 }
 

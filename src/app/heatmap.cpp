@@ -12,7 +12,8 @@ namespace {
 constexpr int kHeatmapSide = 1024;
 constexpr double kDecades = 1; // of errors, from white to what is promised, so that rounding alone stays white
 
-/// From 0 at a tenth of what is promised to 1 at the promise. Values that are not finite are as wrong as can be.
+/// Maps an error to 0 at a tenth of what is promised up to 1 at the promise. Values that are not finite are as wrong as
+/// can be.
 double errorHeat(const SampleError& error, const Promises& promises) {
     const double share = std::max(error.point / promises.point, error.tangent / promises.tangent);
     if (!std::isfinite(error.point + error.tangent)) return 1;
@@ -83,7 +84,7 @@ Picture drawHeatmap(Device& device, const DenseMesh& mesh) {
     options.show = Show::height;
     options.camera = frameCamera(points, {}, 1);
     options.lighting.castsShadows = false;
-    for (const dvec3& p : points) options.bounds.add(p);
+    options.bounds = computeBounds(points);
     const MeshModel model(device, {.mesh = &mesh});
     Renderer renderer(device, {.width = kHeatmapSide, .height = kHeatmapSide, .shadowSide = 1});
     return renderer.render(model, options);

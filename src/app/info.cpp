@@ -177,9 +177,11 @@ bool isEmpty(const std::string& key, const json& value) {
     return value.is_null() || isZero || (value.is_structured() && value.empty());
 }
 
+constexpr int kNameColumns = 32; ///< as wide as the longest name that reports have
+
 void printRow(std::string name, const std::string& text) {
     std::ranges::replace(name, '_', ' ');
-    std::cout << fmt::format("  {:28} {}\n", name, onOneLine(text));
+    std::cout << fmt::format("  {:{}} {}\n", name, kNameColumns, onOneLine(text));
 }
 
 /// Prints one `name  value` per line, in the JSON's words, and one line per limit. Zeros and what is empty are omitted.
@@ -197,7 +199,7 @@ void print(const json& object) {
 }
 
 void checkUsage(const InfoArgs& args) {
-    if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info wants files, or --devices");
+    if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info needs files, or --devices");
     const std::string& map = args.object.height.path;
     if (!map.empty() && std::ranges::count_if(args.files, isCage) != 1)
         fail(Failure::usage, "--height {}: name the one cage that the map is for", map);

@@ -34,6 +34,8 @@ constexpr Command kCommands[] = {
     {"sample", "evaluate points, tangents and normals of the surface on the device", app::addSample},
     {"check", "certify that the triangles are watertight, exact and one-to-one", app::addCheck},
     {"bench", "measure what displacement costs and saves, against dense meshes", app::addBench},
+    {"normal-map", "make a normal map of a height map", app::addNormalMap},
+    {"height-map", "make a height map of a normal map", app::addHeightMap},
     {"info", "describe files, or the Vulkan devices of this machine", app::addInfo},
 };
 
@@ -59,7 +61,7 @@ int run(std::vector<std::string> words) {
         app::requireFiniteNumbers(*verb);
         verbs.emplace_back(command.name);
     }
-    // CLI11 wants the words after the program's name, the last one first.
+    // CLI11 expects the words after the program's name, the last one first.
     words.erase(words.begin());
     try {
         app.parse(std::vector<std::string>(words.rbegin(), words.rend()));

@@ -25,18 +25,7 @@ void addWeld(CLI::App& app, std::optional<Distance>& weld) {
 void addHeights(CLI::App& app, HeightDesc& height) {
     const char* group = "height";
     listIn(group, "MAP", app.add_option("--height", height.path, "height map: .exr .tif .png .hdr .jpg"));
-    listIn(group, "S",
-           app.add_option("--scale", height.scale, "cage units per unit of stored height (default: 1)")
-               ->check(anyCoordinate()));
-    listIn(group, "M",
-           app.add_option("--mid", height.mid,
-                          "stored height that displaces nothing (default: 0.5 for unsigned integers, which are read "
-                          "as 0..1, else 0)")
-               ->check(anyNumber()));
-    listIn(group, "C",
-           app.add_option("--channel", height.channel,
-                          "channel or layer of the map, by its name or by its number from 0 (default: 0)")
-               ->check(notNegative()));
+    addHeightValues(app, height);
     listIn(group, "WRAP",
            addEnum(app, "--wrap", height.wrap, kWraps,
                    "what lies outside of the map (default: repeat, with a warning where that shows)"));
@@ -127,6 +116,22 @@ void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
                ->check(CLI::Range(0, 10)));
     addWeld(app, object.weld);
     addHeights(app, object.height);
+}
+
+void addHeightValues(CLI::App& app, HeightDesc& height) {
+    const char* group = "height";
+    listIn(group, "S",
+           app.add_option("--scale", height.scale, "cage units per unit of stored height (default: 1)")
+               ->check(anyCoordinate()));
+    listIn(group, "M",
+           app.add_option("--mid", height.mid,
+                          "stored height that displaces nothing (default: 0.5 for unsigned integers, which are read "
+                          "as 0..1, else 0)")
+               ->check(anyNumber()));
+    listIn(group, "C",
+           app.add_option("--channel", height.channel,
+                          "channel or layer of the map, by its name or by its number from 0 (default: 0)")
+               ->check(notNegative()));
 }
 
 void addTime(CLI::App& app, MotionDesc& motion) {

@@ -104,7 +104,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     options.lighting =
         makeLighting(args.scene.lighting, args.scene.camera.azimuth, environment ? &*environment : nullptr);
     options.camera = makeCamera(args.scene, coordinates, points);
-    for (const dvec3& p : points) options.bounds.add(p);
+    options.bounds = computeBounds(points);
     Model model = makeModel(device, loaded.object);
     SurfaceModel* surface = std::get_if<SurfaceModel>(&model);
     if (surface != nullptr) keepRestPose(device, *surface, loaded.object, args.scene.object.height.space);
@@ -119,6 +119,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
                 .loadSeconds = object.loadSeconds,
                 .surfaceSeconds = object.surfaceSeconds,
                 .tableSeconds = object.surface.tableSeconds};
+    const Material material = makeMaterial(args.scene.object.material, object.textureColor);
     loaded = {};
     malloc_trim(0);
     progress.advance();
@@ -126,7 +127,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     const ivec2& size = args.scene.size;
     Renderer renderer(device, {.width = size.x, .height = size.y});
     device.startPeak();
-    drawn.picture = renderer.render(Instance(model, makeMaterial(args.scene.object.material)), options);
+    drawn.picture = renderer.render(Instance(model, material), options);
     drawn.peakDeviceBytes = device.peakBytes();
     if (surface != nullptr && surface->function) drawn.function = surface->function->costs();
     drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size, coordinates});

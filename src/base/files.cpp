@@ -1,4 +1,4 @@
-// Files in: one place asks what kind of file it is, and reads in steps of bounded size.
+// Input files: one function checks what kind of file it is; files are read in steps of bounded size.
 #include "base/base.h"
 
 #include <algorithm>
@@ -41,11 +41,11 @@ void checkRegular(const std::string& path, const struct stat& status) {
 } // namespace
 
 InputFile::InputFile(std::string path) : path_(std::move(path)) {
-    // Asked before opening, which can set a device to work and wakes whoever waits to write into a pipe.
+    // Checked before opening, which can set a device to work and wakes whoever waits to write into a pipe.
     struct stat status {};
     if (stat(path_.c_str(), &status) != 0) failToRead(path_);
     checkRegular(path_, status);
-    // Asked again of what was opened, which may be another file by now: without waiting, then.
+    // Checked again after opening, because the name may stand for another file by now. O_NONBLOCK: that may be a pipe.
     file_ = open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
     if (file_ < 0) failToRead(path_);
     try {

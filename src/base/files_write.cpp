@@ -1,4 +1,4 @@
-// Files out, whole or not at all.
+// Output files, written whole or not at all.
 #include "base/base.h"
 
 #include <atomic>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostLinks = 40; ///< one behind another, as the system has it
+constexpr int kMostLinks = 40; ///< each to the next: the limit that the system has, too
 
 [[noreturn]] void failToWrite(const std::string& path, int error) {
     fail(Failure::file, "{}: cannot be written: {}", path, std::generic_category().message(error));
@@ -51,8 +51,8 @@ fs::path resolveTarget(const std::string& path) {
     failToWrite(path, ELOOP);
 }
 
-/// A new file that is to take the place of another. It has no name until then where the system knows such files; a
-/// process that is killed leaves nothing of those.
+/// A new file that is to replace another. It has no name until then where the system supports such files; a process
+/// that is killed leaves nothing of those behind.
 class NewFile {
 public:
     explicit NewFile(fs::path target);
@@ -60,8 +60,8 @@ public:
     NewFile& operator=(const NewFile&) = delete;
     ~NewFile() { close(file_); }
 
-    /// By what name this process and its children open it. Not its own name even where it has one: once that is removed
-    /// by an interrupt, no child can make it anew.
+    /// The name by which this process and its children open it. It is not the file's own name even where it has one:
+    /// once an interrupt has removed that, no child can create it again.
     [[nodiscard]] std::string path() const { return hasDescriptorNames() ? descriptorName() : name_->path(); }
 
     void takePlace();
@@ -82,7 +82,8 @@ private:
 
 NewFile::NewFile(fs::path target) : target_(std::move(target)) {
     openNameless();
-    if (file_ < 0) openNamed(); // some disks have no such files; and this says what else may be wrong
+    if (file_ < 0)
+        openNamed(); // some file systems have no files without a name; this call also reports what else may be wrong
     takePermissions();
 }
 
@@ -112,7 +113,7 @@ std::string NewFile::makeNamed(const std::function<bool(const std::string& name)
     }
 }
 
-/// Of the file that is to be replaced, as far as the system lets them be given.
+/// Gives the new file the owner and the permissions of the one that it replaces, as far as the system permits it.
 void NewFile::takePermissions() const {
     struct stat old {};
     if (stat(target_.c_str(), &old) != 0) return;

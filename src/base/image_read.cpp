@@ -1,4 +1,5 @@
-// Pictures in: OpenImageIO decodes, but which of its readers runs and how much memory it may take is decided here.
+// Reading pictures: OpenImageIO decodes them, but this file decides which of its readers is used and how much memory it
+// may take.
 #include "base/base.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <fcntl.h>
@@ -49,11 +51,16 @@ bool namesTiles(const std::string& path) {
     return has("<udim>") || has("%(udim)d") || has("<uvtile>");
 }
 
-std::string findFormat(const std::string& path) {
-    std::array<char, 16> start{};
+/// The file of a picture. Throws for a name that stands for several.
+PictureBytes bytesOfFile(const std::string& path) {
     if (namesTiles(path) && !std::filesystem::exists(path))
         fail(Failure::usage, "{}: sets of tiles (UDIM) are not read yet; name the picture of one tile", path);
-    const std::string_view bytes(start.data(), InputFile(path).read(0, start.data(), start.size()));
+    return PictureBytes(path);
+}
+
+std::string findFormat(const std::string& path, const PictureBytes& picture) {
+    std::array<char, 16> start{};
+    const std::string_view bytes(start.data(), picture.read(0, start.data(), start.size()));
     for (const Magic& magic : kMagics)
         if (bytes.starts_with(magic.bytes)) return magic.format;
     fail(Failure::input, "{}: not a picture that can be read; use EXR, TIFF, PNG, HDR or JPEG", path);
@@ -93,9 +100,9 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& path, const Image
 // --- files that were cut: libjpeg fills them up with grey and calls it success, libpng prints to stderr ------------
 
 /// Throws for a file that was cut.
-void checkEnd(const std::string& path, const std::string& format) {
-    const bool isWhole = format == "png"    ? readPngFacts(PictureBytes(path)).isWhole
-                         : format == "jpeg" ? jpegHasEnd(PictureBytes(path))
+void checkEnd(const std::string& path, const PictureBytes& picture, const std::string& format) {
+    const bool isWhole = format == "png"    ? readPngFacts(picture).isWhole
+                         : format == "jpeg" ? jpegHasEnd(picture)
                          : format == "tiff" ? readTiffFacts(path).isWhole
                                             : true;
     if (!isWhole) fail(Failure::input, "{}: damaged {} picture: the file ends before the picture does", path, format);
@@ -139,18 +146,32 @@ private:
 
 struct OpenImage {
     std::string path;
+    std::unique_ptr<OIIO::Filesystem::IOMemReader> memory; ///< of a picture that is no file; `input` reads it
     std::unique_ptr<OIIO::ImageInput> input;
     std::string format;
     OIIO::ImageSpec spec; ///< of its part
     int part = 0;
 };
 
-OpenImage openImage(const std::string& path, const ImageLimits& limits, int part = 0) {
-    OpenImage image{.path = path, .input = nullptr, .format = findFormat(path), .spec = {}, .part = part};
-    checkEnd(path, image.format);
+/// Lets the reader take the bytes in memory. Only readers that are known to do so get any.
+void readFromMemory(OpenImage& image, const PictureBytes& picture) {
+    if (image.format != "png" && image.format != "jpeg")
+        fail(Failure::input, "{}: a picture inside of another file is PNG or JPEG, this one is {}", image.path,
+             image.format);
+    const std::span<const unsigned char> bytes = picture.inMemory();
+    image.memory = std::make_unique<OIIO::Filesystem::IOMemReader>(bytes.data(), bytes.size());
+    if (!image.input->set_ioproxy(image.memory.get()))
+        fail(Failure::internal, "OpenImageIO has no {} reader of memory: {}", image.format, reason(*image.input));
+}
+
+/// `path` stands for the picture in messages where it is no file.
+OpenImage openImage(const std::string& path, const PictureBytes& picture, const ImageLimits& limits, int part = 0) {
+    OpenImage image{.path = path, .format = findFormat(path, picture), .part = part};
+    checkEnd(path, picture, image.format);
     const SilentStderr silence(image.format == "png");
     image.input = OIIO::ImageInput::create(image.format);
     if (!image.input) fail(Failure::internal, "OpenImageIO has no {} reader: {}", image.format, OIIO::geterror());
+    if (!picture.isFile()) readFromMemory(image, picture);
     OIIO::ImageSpec asked;
     asked.attribute("oiio:UnassociatedAlpha", 1); // otherwise colours come multiplied by alpha: not the stored numbers
     asked.attribute("oiio:RawColor", 1);
@@ -300,10 +321,20 @@ std::string profileOf(const OIIO::ImageSpec& spec) {
                        std::string(spec.get_string_attribute("ICCProfile:profile_description", "without a name")));
 }
 
+Image readChannels(const OpenImage& source, int first, int end) {
+    Image image{.width = source.spec.width, .height = source.spec.height, .channels = end - first, .texels = {}};
+    image.texels.reserve(std::size_t(image.width) * image.height * image.channels);
+    readRows(source, first, end, [&](int, int, std::span<const float> rows) {
+        image.texels.insert(image.texels.end(), rows.begin(), rows.end());
+    });
+    return image;
+}
+
 } // namespace
 
 ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
-    const OpenImage image = openImage(path, limits);
+    const PictureBytes picture = bytesOfFile(path);
+    const OpenImage image = openImage(path, picture, limits);
     const OIIO::ImageSpec& spec = image.spec;
     std::vector<ImagePart> parts = partsOf(image);
     image.input->close();
@@ -316,26 +347,24 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
             .isFloat = spec.format.is_floating_point(),
             .isSigned = isSignedInteger(spec.format),
             .noData = image.format == "tiff" ? readTiffFacts(path).noData : std::nullopt,
-            .colorTag = image.format == "png" ? readPngFacts(PictureBytes(path)).colorTag : profileOf(spec),
+            .colorTag = image.format == "png" ? readPngFacts(picture).colorTag : profileOf(spec),
             .channelNames = spec.channelnames,
             .parts = std::move(parts)};
 }
 
 Image readImage(const std::string& path, int channel, const ImageLimits& limits, int part) {
-    const OpenImage source = openImage(path, limits, part);
+    const OpenImage source = openImage(path, bytesOfFile(path), limits, part);
     checkChannel(channel, source.spec, path);
-    const int first = std::max(channel, 0);
-    const int end = channel < 0 ? source.spec.nchannels : channel + 1;
-    Image image{.width = source.spec.width, .height = source.spec.height, .channels = end - first, .texels = {}};
-    image.texels.reserve(std::size_t(image.width) * image.height * image.channels);
-    readRows(source, first, end, [&](int, int, std::span<const float> rows) {
-        image.texels.insert(image.texels.end(), rows.begin(), rows.end());
-    });
-    return image;
+    return readChannels(source, std::max(channel, 0), channel < 0 ? source.spec.nchannels : channel + 1);
+}
+
+Image decodeImage(std::span<const unsigned char> bytes, const std::string& name, const ImageLimits& limits) {
+    const OpenImage source = openImage(name, PictureBytes(bytes), limits);
+    return readChannels(source, 0, source.spec.nchannels);
 }
 
 void readImageRows(const std::string& path, const TakeRows& take, const ImageLimits& limits) {
-    const OpenImage source = openImage(path, limits);
+    const OpenImage source = openImage(path, bytesOfFile(path), limits);
     readRows(source, 0, source.spec.nchannels, take);
 }
 

@@ -1,4 +1,4 @@
-// Pictures out, whole or not at all.
+// Writing pictures, whole or not at all.
 #include "base/base.h"
 
 #include <algorithm>

@@ -76,6 +76,10 @@ struct Image {
 /// Throws as readImageInfo does.
 Image readImage(const std::string& path, int channel = -1, const ImageLimits& limits = {}, int part = 0);
 
+/// Decodes a PNG or JPEG that lies in memory, as readImage does a file. `name` stands for it in messages.
+/// Throws Failure::input.
+Image decodeImage(std::span<const unsigned char> bytes, const std::string& name, const ImageLimits& limits = {});
+
 /// Called with rows first..first+count-1: count * width * channels texels.
 using TakeRows = std::function<void(int first, int count, std::span<const float> texels)>;
 

@@ -1,4 +1,4 @@
-// A kd-tree over points: few steps to those near a place, whatever the places are.
+// A kd-tree over points: finds those near a location in few steps, however the points are distributed.
 #pragma once
 
 #include <algorithm>

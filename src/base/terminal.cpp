@@ -1,8 +1,9 @@
 #include "base/base.h"
+#include "base/clock.h"
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
+#include <cmath>
 #include <cstdio>
 
 #include <unistd.h>
@@ -13,10 +14,6 @@ namespace {
 
 constexpr int kBarCells = 20;
 constexpr double kQuietSeconds = 1; // work that ends sooner needs no bar
-
-double secondsNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 bool isWanted(ShowProgress show) {
     return show == ShowProgress::always || (show == ShowProgress::automatic && isatty(STDERR_FILENO) == 1);
@@ -56,7 +53,7 @@ std::string Progress::speed() const {
     const double seconds = secondsNow() - startSeconds_;
     if (unit_.empty() || done_ == 0 || seconds <= 0) return "";
     const double perSecond = double(done_) / seconds;
-    const auto left = std::uint64_t(double(total_ - done_) / perSecond + 0.5);
+    const auto left = std::uint64_t(std::llround(double(total_ - done_) / perSecond));
     return fmt::format("  {:.{}f} {}/s, {}:{:02} left ", perSecond, perSecond < 10 ? 1 : 0, unit_, left / 60,
                        left % 60);
 }

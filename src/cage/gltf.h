@@ -1,6 +1,6 @@
-// What relief takes from a glTF 2.0 file: triangles, skins, morph targets, the tree of nodes and its animations, as
-// plain arrays that have been checked: indices exist, counts agree, numbers are finite, the tree has no cycle. Numbers
-// of sections are the specification's.
+// What relief takes from a glTF 2.0 file: triangles, skins, morph targets, the tree of nodes, its animations and the
+// textures of its materials, as plain arrays that have been checked: indices exist, counts agree, numbers are finite,
+// the tree has no cycle. Numbers of sections are the specification's.
 #pragma once
 
 #include <optional>
@@ -12,19 +12,19 @@
 
 namespace relief {
 
-constexpr std::uint32_t kMostGltfInfluences = 8; ///< the largest weights of a vertex, where a file has more
+constexpr std::uint32_t kMostGltfInfluences = 8; ///< joints that are kept of a vertex: those with the largest weights
 
-/// One draw: the vertices that its triangles use, with one of everything, and the triangles between them.
+/// The triangles of one primitive, and the vertices that they use, each with its attributes.
 struct GltfPrimitive {
     std::vector<vec3> positions;          ///< in the space of the mesh
-    std::vector<vec3> normals;            ///< one a vertex, or empty
-    std::vector<vec2> texCoords;          ///< TEXCOORD_0 with t turned to run up; one a vertex, or empty
-    std::vector<std::uint32_t> triangles; ///< three vertices each; none where it makes no surface
-    std::vector<vec3> offsets;            ///< of morph targets, one after the other: one a vertex each
-    std::uint32_t influenceCount = 0;     ///< joints a vertex; 0: the primitive has none
-    std::vector<std::uint32_t> joints;    ///< influenceCount a vertex, into the joints of a skin
-    std::vector<float> weights;           ///< as joints; those of a vertex add up to 1
-    std::uint32_t largestJoint = 0, largestJointVertex = 0; ///< and the vertex of the file that it moves
+    std::vector<vec3> normals;            ///< one per vertex, or empty
+    std::vector<vec2> texCoords;          ///< TEXCOORD_0 with t turned to run up; one per vertex, or empty
+    std::vector<std::uint32_t> triangles; ///< three vertices each; empty where the primitive makes no surface
+    std::vector<vec3> offsets;            ///< of morph targets, target after target: one per vertex
+    std::uint32_t influenceCount = 0;     ///< joints per vertex; 0: the primitive has none
+    std::vector<std::uint32_t> joints;    ///< influenceCount per vertex, into the joints of a skin
+    std::vector<float> weights;           ///< per entry of `joints`; those of a vertex add up to 1
+    std::uint32_t largestJoint = 0, largestJointVertex = 0; ///< the vertex that it moves, as the file numbers it
     std::string material;
 };
 
@@ -43,7 +43,7 @@ struct GltfTransform {
 
 struct GltfNode {
     std::string name;
-    int parent = -1, mesh = -1, skin = -1; ///< -1: none; a skin stands only beside a mesh
+    int parent = -1, mesh = -1, skin = -1; ///< -1: none; only nodes with a mesh have a skin
     GltfTransform transform;
     std::optional<glm::dmat4> matrix; ///< instead of the transform
     std::vector<double> weights;      ///< of the mesh's morph targets
@@ -51,7 +51,7 @@ struct GltfNode {
 
 struct GltfSkin {
     std::vector<std::uint32_t> joints;    ///< nodes
-    std::vector<glm::dmat4> inverseBinds; ///< one a joint
+    std::vector<glm::dmat4> inverseBinds; ///< one per joint
 };
 
 enum class GltfPath { translation, rotation, scale, weights };
@@ -62,14 +62,14 @@ struct GltfChannel {
     std::uint32_t node = 0;
     GltfPath path = GltfPath::translation;
     GltfInterpolation interpolation = GltfInterpolation::linear;
-    std::uint32_t width = 0;   ///< numbers of the property
+    std::uint32_t width = 0;   ///< numbers per value of the property
     std::vector<float> times;  ///< seconds, rising; at least one
-    std::vector<float> values; ///< width a time; cubicSpline: in-tangent, value and out-tangent of width each
+    std::vector<float> values; ///< width per time; cubicSpline: 3 * width per time, in-tangent, value and out-tangent
 };
 
 struct GltfClip {
     std::string name;
-    std::vector<GltfChannel> channels; ///< no two of one property of one node
+    std::vector<GltfChannel> channels; ///< at most one per property of a node
 };
 
 struct GltfScene {
@@ -81,6 +81,29 @@ struct GltfScene {
     std::optional<GltfClip> clip; ///< the one that was asked for
 };
 
+/// A picture that a material names, as it is stored.
+struct GltfTexture {
+    std::string name;       ///< for messages: the file and its element, "FILE: images/0"
+    std::string bytes;      ///< of a PNG or JPEG file; row 0 is at t = 1 of GltfPrimitive::texCoords
+    bool isClamped = false; ///< beyond 0..1 along s and t; else it repeats
+    double scale = 1;       ///< of a normal map: factor of x and y
+};
+
+/// The looks of primitives as far as relief draws them. Normal maps are of tangent space, with y up.
+struct GltfMaterial {
+    std::string name;
+    dvec3 baseColorFactor{1}; ///< linear; multiplies the texture
+    std::optional<GltfTexture> baseColor, normal;
+};
+
+/// Reads the materials of the triangles that the file's scene shows, each once, in the order of the file; those of
+/// primitives without one are not in the list. They change no shape, so that nothing in them is a fault of the file:
+/// `warn` gets what is wrong with a texture, and the material is without it. Textures by other coordinates than
+/// TEXCOORD_0, transformed ones and those that are neither PNG nor JPEG are not read. Neither is the attribute TANGENT:
+/// tangents are those of the surface that is drawn.
+/// Throws as readGltf does for the file itself and for its nodes.
+std::vector<GltfMaterial> readGltfMaterials(const std::string& path, const Warn& warn);
+
 /// Reads a .gltf with the buffers beside it, or a .glb: by its first bytes, whatever its name. Of the animations it
 /// reads `clip`, a name or a number ("": the first, if there is one), or none. What the file's scene does not need is
 /// never looked at (images, materials, other animations, meshes that are not shown), so that nothing in it is a fault;
@@ -90,32 +113,33 @@ struct GltfScene {
 /// cannot be understood.
 GltfScene readGltf(const std::string& path, const std::optional<std::string>& clip, const Warn& warn);
 
-/// Where nodes stand when nothing moves them.
+/// Returns the transforms of all nodes when no animation moves them, per node.
 std::vector<GltfTransform> restTransforms(const GltfScene& scene);
 
-/// From each node to the world (section 3.5); `transforms`: one a node.
+/// Computes the matrix from each node to the world (section 3.5). `transforms`: one per node.
 std::vector<glm::dmat4> worldMatrices(const GltfScene& scene, std::span<const GltfTransform> transforms);
 
-/// What moves the vertices of a node's mesh: of each joint of its skin, world * inverse bind (3.7.3.2: where the node
-/// itself stands does not matter then), or without a skin the node's own matrix alone. They lead to `coordinates`.
+/// Computes the matrices that move the vertices of a node's mesh into `coordinates`: one per joint of its skin, world *
+/// inverse bind (3.7.3.2: the transform of the node itself is ignored then), or the node's own matrix where it has no
+/// skin.
 std::vector<glm::dmat4> jointMatrices(const GltfScene& scene, std::uint32_t node, std::span<const glm::dmat4> worlds,
                                       const Coordinates& coordinates = {});
 
-/// A matrix that leads to the world, leading to `coordinates` instead. Weights of joints add up to 1 only as floats do:
-/// far from the origin that is too little, so it comes before joints are blended.
+/// Makes a matrix that leads to the world lead to `coordinates` instead. Call it before joints are blended: weights add
+/// up to 1 only with the precision of floats, which is not enough far from the origin.
 glm::dmat4 leadingTo(const Coordinates& coordinates, const glm::dmat4& matrix);
 
-/// The sum of a vertex's joints by their weights; `joints` of jointMatrices.
+/// Blends the matrices of a vertex's joints by their weights. `joints`: from jointMatrices.
 glm::dmat4 blendedMatrix(const GltfPrimitive& primitive, std::size_t vertex, bool isSkinned,
                          std::span<const glm::dmat4> joints);
 
-/// A vertex with its morph targets, before joints (3.7.2.2).
+/// Computes the position of a vertex with its morph targets applied, before its joints (3.7.2.2).
 dvec3 morphedPosition(const GltfPrimitive& primitive, std::size_t vertex, std::span<const double> weights);
 
-/// The first line of foreign words as it may stand in a message: not too long, without control characters.
+/// Returns the first line of a file's text in a form that messages may contain: not too long, no control characters.
 std::string printable(std::string_view text);
 
-/// The scene's triangles as a cage: see readCage.
+/// Reads the triangles of the file's scene as a cage: see readCage.
 Cage readGltfCage(const std::string& path, const Warn& warn);
 
 } // namespace relief

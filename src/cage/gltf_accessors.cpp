@@ -143,8 +143,8 @@ void GltfAccessors::takeRoom(std::uint64_t numberCount, const std::string& place
 
 void GltfAccessors::checkRoom(std::uint64_t numberCount, const std::string& place) const {
     if (numberCount_ + numberCount > kMostNumbers)
-        failAtElement(document_.path, place, "with it the file unfolds to more than {} numbers, the most that are read",
-                      kMostNumbers);
+        failAtElement(document_.path, place,
+                      "with it the accessors in use have more than {} numbers, the most that are read", kMostNumbers);
 }
 
 GltfAccessors::Layout GltfAccessors::layout(const GltfElement& from, std::uint64_t elementBytes, std::uint64_t count,
@@ -164,13 +164,16 @@ GltfAccessors::Layout GltfAccessors::layout(const GltfElement& from, std::uint64
     return {.first = bytes.data() + offset, .stride = stride};
 }
 
-/// Some elements in other places than the rest (section 3.6.2.3).
+/// Reads where the elements are that a sparse accessor replaces (section 3.6.2.3).
 const GltfAccessors::Sparse* GltfAccessors::sparse(std::uint32_t accessor, std::uint64_t elementBytes,
                                                    std::uint64_t count, const std::string& place) {
     const GltfElement from = *document_.root().at("accessors", accessor).object("sparse");
+    // Read once per accessor, however many primitives use it.
     const auto [kept, isNew] = sparse_.try_emplace(accessor);
     Sparse& sparse = kept->second;
     if (!isNew) return &sparse;
+
+    // Two views: the numbers of the elements, and their values.
     const std::uint64_t replaced = from.need("count").integer("count").value_or(0);
     if (replaced < 1 || replaced > count)
         failAtElement(document_.path, place, "{} sparse elements of {}", replaced, count);
@@ -178,11 +181,13 @@ const GltfAccessors::Sparse* GltfAccessors::sparse(std::uint32_t accessor, std::
     const int type = int(*indices.need("componentType").integer("componentType"));
     if (!isUnsigned(type))
         failAtElement(document_.path, place, "sparse indices of component type {}; unsigned integers are needed", type);
-    const Layout places = layout(indices, componentBytes(type), replaced, place);
+    const Layout numbers = layout(indices, componentBytes(type), replaced, place);
     const Layout elements = layout(values, elementBytes, replaced, place);
     sparse.values = elements.first, sparse.stride = elements.stride;
+
+    // Numbers that rise are found by bisection.
     for (std::uint64_t i = 0; i < replaced; ++i) {
-        const auto index = std::uint32_t(numberAt(places.first + i * places.stride, type));
+        const auto index = std::uint32_t(numberAt(numbers.first + i * numbers.stride, type));
         if (index >= count)
             failAtElement(document_.path, place, "sparse element {} does not exist; there are {} (from 0)", index,
                           count);
@@ -197,7 +202,7 @@ const GltfAccessors::Sparse* GltfAccessors::sparse(std::uint32_t accessor, std::
 GltfAccessors::Elements GltfAccessors::elements(std::uint32_t index, const GltfUse& use) {
     static constexpr unsigned char kZeros[64] = {}; // an element of the largest type
     const GltfElement accessor = document_.entry("accessors", "accessor", index, use.place);
-    // What it says of itself.
+    // Its type and length, which must be those that are expected.
     const std::string type = accessor.need("type").text("type");
     if (type != typeName(use.type))
         failAtElement(document_.path, use.place, "accessor {} is of {}, {} expected", index, printable(type),
@@ -215,7 +220,7 @@ GltfAccessors::Elements GltfAccessors::elements(std::uint32_t index, const GltfU
     if (componentBytes(elements.componentType) == 0)
         failAtElement(document_.path, use.place, "accessor {} has components of unknown type {}", index,
                       elements.componentType);
-    // Where its elements are.
+    // The bytes that hold its elements.
     if (use.decoded != nullptr) {
         const int decodedType = componentTypeOf(use.decoded->data_type());
         if (decodedType != elements.componentType || std::uint64_t(use.decoded->num_components()) != elements.width)
@@ -235,6 +240,7 @@ GltfAccessors::Elements GltfAccessors::elements(std::uint32_t index, const GltfU
 
 std::vector<float> GltfAccessors::floats(std::uint32_t index, const GltfUse& use,
                                          std::optional<std::span<const std::uint32_t>> which) {
+    // Which component types the use allows.
     const Elements elements = this->elements(index, use);
     const bool isInteger = isByteOrShort(elements.componentType);
     const bool isTaken = elements.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT ||
@@ -243,6 +249,8 @@ std::vector<float> GltfAccessors::floats(std::uint32_t index, const GltfUse& use
     if (!isTaken)
         failAtElement(document_.path, use.place, "accessor {} has {} components of type {}, which it cannot have",
                       index, elements.isNormalized ? "normalized" : "plain", elements.componentType);
+
+    // The numbers, normalised integers divided by their largest (section 3.11).
     const double largest = elements.isNormalized ? largestOf(elements.componentType) : 1;
     const std::uint64_t numberCount = (which ? which->size() : elements.count) * elements.width;
     takeRoom(numberCount, use.place);

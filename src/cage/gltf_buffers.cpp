@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kLongestFile = std::numeric_limits<std::uint32_t>::max(); // what a .glb can say of itself
+/// The largest length that the header of a .glb can state.
+constexpr std::uint64_t kLongestFile = std::numeric_limits<std::uint32_t>::max();
 constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbVersion = 2, kGlbJson = 0x4E4F534A, kGlbBytes = 0x004E4942;
 
 // --- binary files (section 4.4) ----------------------------------------------------------------------------------
@@ -62,15 +63,15 @@ std::string_view takeGlbApart(GltfDocument& document) {
 
 bool isDataUri(const std::string& uri) { return uri.starts_with("data:"); }
 
-std::string bytesOfDataUri(const std::string& uri, const GltfElement& buffer) {
+std::string bytesOfDataUri(const std::string& uri, const GltfElement& from) {
     constexpr std::string_view kBase64 = ";base64,";
     const std::size_t end = uri.find(kBase64);
     if (end == std::string::npos || end > uri.find(','))
-        buffer.fail("its data: URI is no base64; write data:application/octet-stream;base64,...");
+        from.fail("its data: URI is no base64; write data:application/octet-stream;base64,...");
     return tinygltf::base64_decode(uri.substr(end + kBase64.size()));
 }
 
-/// With %20 and the like as the letters they stand for (RFC 3986).
+/// Decodes %20 and the like (RFC 3986).
 std::string withoutPercents(const std::string& uri) {
     const auto digit = [](char c) {
         constexpr std::string_view kDigits = "0123456789abcdef";
@@ -86,13 +87,14 @@ std::string withoutPercents(const std::string& uri) {
     return text;
 }
 
-/// The buffer's place, which is below the folder of the glTF file.
-std::string filePlace(const std::string& uri, const GltfElement& buffer) {
-    const fs::path folder = fs::path(buffer.path()).parent_path();
-    const fs::path place = fs::path(withoutPercents(uri)).lexically_normal();
-    if (place.empty() || place.is_absolute() || *place.begin() == ".." || place == "." || !place.has_filename())
-        buffer.fail("{} does not lie in the file's own folder", printable(uri));
-    return (folder / place).string();
+/// The path of a buffer's or a picture's file, which has to be below the folder of the glTF file.
+std::string filePath(const std::string& uri, const GltfElement& from) {
+    const fs::path folder = fs::path(from.path()).parent_path();
+    const fs::path relative = fs::path(withoutPercents(uri)).lexically_normal();
+    if (relative.empty() || relative.is_absolute() || *relative.begin() == ".." || relative == "." ||
+        !relative.has_filename())
+        from.fail("{} does not lie in the file's own folder", printable(uri));
+    return (folder / relative).string();
 }
 
 /// The first `length` bytes; a file may have more (section 3.6.1.1).
@@ -111,7 +113,7 @@ std::string firstBytes(const std::string& path, std::uint64_t length, const Gltf
 
 std::string readBuffer(const GltfElement& buffer, std::uint64_t length) {
     const std::string uri = buffer.need("uri").text("uri");
-    if (!isDataUri(uri)) return firstBytes(filePlace(uri, buffer), length, buffer);
+    if (!isDataUri(uri)) return firstBytes(filePath(uri, buffer), length, buffer);
     std::string bytes = bytesOfDataUri(uri, buffer);
     if (bytes.size() < length)
         buffer.fail("its data: URI holds {} bytes of {}; is the file whole?", bytes.size(), length);
@@ -119,6 +121,13 @@ std::string readBuffer(const GltfElement& buffer, std::uint64_t length) {
 }
 
 } // namespace
+
+std::string readGltfPicture(const GltfElement& image) {
+    const std::string uri = image.need("uri").text("uri");
+    if (isDataUri(uri)) return bytesOfDataUri(uri, image);
+    const std::string path = filePath(uri, image);
+    return firstBytes(path, InputFile(path).size(), image);
+}
 
 GltfElement GltfDocument::entry(const char* list, const char* what, std::uint32_t index,
                                 const std::string& place) const {

@@ -8,7 +8,7 @@
 namespace relief {
 namespace {
 
-/// Numbers by their bits: what is at one place (three of them), or one place's texture coordinates or normal.
+/// Numbers by their bits: the three of a position, or the number of a position with its texture coordinates or normal.
 using Key = std::array<std::uint32_t, 4>;
 
 struct KeyHash {
@@ -21,7 +21,7 @@ struct KeyHash {
 
 std::uint32_t bitsOf(float number) { return std::bit_cast<std::uint32_t>(number); }
 
-/// Both zeros become one.
+/// Replaces -0 by +0: equal coordinates then have equal bits.
 vec3 withoutNegativeZeros(const vec3& p) { return p + vec3(0); }
 
 /// The matrix that turns normals as `matrix` turns surfaces, up to a positive factor: never a division by zero.
@@ -37,12 +37,12 @@ public:
     CageBuilder(const GltfScene& scene, bool takesTexCoords)
         : scene_(scene), takesTexCoords_(takesTexCoords), worlds_(worldMatrices(scene, restTransforms(scene))) {}
 
-    /// Of the vertices that triangles use, in the coordinates of the cage.
+    /// Computes the box around the vertices that triangles use, in the coordinates of the cage.
     Bounds bounds();
 
     void addNode(std::uint32_t node) {
         enterNode(node);
-        places_.clear(), texCoords_.clear(), normals_.clear(); // separate objects stay separate where they touch
+        positions_.clear(), texCoords_.clear(), normals_.clear(); // vertices of different nodes are never merged
         for (const GltfPrimitive& primitive : scene_.meshes[std::size_t(scene_.nodes[node].mesh)].primitives)
             addPrimitive(primitive);
     }
@@ -62,7 +62,7 @@ private:
         node_ = node;
         joints_ = jointMatrices(scene_, node, worlds_, cage.coordinates);
     }
-    [[nodiscard]] dvec3 placeOf(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix) const;
+    [[nodiscard]] dvec3 positionOf(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix) const;
     void addPrimitive(const GltfPrimitive& primitive);
     std::vector<Corner> addVertices(const GltfPrimitive& primitive);
     Corner addVertex(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix);
@@ -72,7 +72,7 @@ private:
     bool takesTexCoords_;
     std::vector<glm::dmat4> worlds_, joints_;
     std::uint32_t node_ = 0;
-    std::unordered_map<Key, std::uint32_t, KeyHash> places_, texCoords_, normals_; ///< of this node
+    std::unordered_map<Key, std::uint32_t, KeyHash> positions_, texCoords_, normals_; ///< of this node
 };
 
 std::vector<bool> usedVertices(const GltfPrimitive& primitive) {
@@ -81,7 +81,7 @@ std::vector<bool> usedVertices(const GltfPrimitive& primitive) {
     return isUsed;
 }
 
-dvec3 CageBuilder::placeOf(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix) const {
+dvec3 CageBuilder::positionOf(const GltfPrimitive& primitive, std::size_t vertex, const glm::dmat4& matrix) const {
     const dvec3 morphed = morphedPosition(primitive, vertex, scene_.nodes[node_].weights);
     return dvec3(matrix * glm::dvec4(morphed, 1));
 }
@@ -96,7 +96,7 @@ Bounds CageBuilder::bounds() {
             dvec3 farthest(0); // in the space of the mesh
             for (std::size_t i = 0; i < isUsed.size(); ++i) {
                 if (!isUsed[i]) continue;
-                bounds.add(placeOf(primitive, i, blendedMatrix(primitive, i, isSkinned, joints_)));
+                bounds.add(positionOf(primitive, i, blendedMatrix(primitive, i, isSkinned, joints_)));
                 farthest = glm::max(farthest, glm::abs(dvec3(primitive.positions[i])));
             }
             const double scale = std::cbrt(std::abs(glm::determinant(glm::dmat3(joints_[0]))));
@@ -121,7 +121,7 @@ void CageBuilder::addPrimitive(const GltfPrimitive& primitive) {
                           .faceCount = std::uint32_t(cage.faceCount() - firstFace)});
 }
 
-/// Those that triangles use, in the order of the file.
+/// Adds the vertices that triangles use, in the order of the file; the others keep an empty Corner.
 std::vector<CageBuilder::Corner> CageBuilder::addVertices(const GltfPrimitive& primitive) {
     const bool isSkinned = scene_.nodes[node_].skin >= 0;
     const std::vector<bool> isUsed = usedVertices(primitive);
@@ -136,11 +136,11 @@ std::vector<CageBuilder::Corner> CageBuilder::addVertices(const GltfPrimitive& p
 CageBuilder::Corner CageBuilder::addVertex(const GltfPrimitive& primitive, std::size_t vertex,
                                            const glm::dmat4& matrix) {
     const double determinant = glm::determinant(glm::dmat3(matrix));
-    const vec3 p = withoutNegativeZeros(vec3(placeOf(primitive, vertex, matrix)));
-    const auto [place, isNewPlace] =
-        places_.try_emplace({bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), 0}, std::uint32_t(cage.positions.size()));
-    if (isNewPlace) cage.positions.push_back(p);
-    Corner corner{.position = place->second, .isMirrored = determinant < 0};
+    const vec3 p = withoutNegativeZeros(vec3(positionOf(primitive, vertex, matrix)));
+    const auto [position, isNewPosition] =
+        positions_.try_emplace({bitsOf(p.x), bitsOf(p.y), bitsOf(p.z), 0}, std::uint32_t(cage.positions.size()));
+    if (isNewPosition) cage.positions.push_back(p);
+    Corner corner{.position = position->second, .isMirrored = determinant < 0};
     if (takesTexCoords_) {
         const vec2& st = primitive.texCoords[vertex];
         const auto [texCoord, isNewTexCoord] = texCoords_.try_emplace({corner.position, bitsOf(st.x), bitsOf(st.y), 0},

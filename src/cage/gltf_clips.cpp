@@ -128,7 +128,7 @@ GltfInterpolation ClipReader::interpolationOf(const GltfElement& sampler) const 
     sampler.fail("unknown interpolation; it is LINEAR, STEP or CUBICSPLINE");
 }
 
-/// Of a list of objects; entries that are none have no name.
+/// Lists the names of all animations; "" for entries that are no objects.
 std::vector<std::string> namesOfClips(const GltfDocument& document) {
     std::vector<std::string> names(document.root().count("animations"));
     for (std::size_t i = 0; i < names.size(); ++i)
@@ -144,7 +144,7 @@ std::string listOf(const std::vector<std::string>& names) {
     return names.size() > kMost ? list + ", ..." : list;
 }
 
-/// By name, else by number; the first where nothing is asked for.
+/// Finds a clip by its name, else by its number; the first one where `asked` is empty.
 std::size_t findClip(const std::vector<std::string>& names, const std::string& asked, const std::string& path) {
     if (asked.empty()) return 0;
     for (std::size_t i = 0; i < names.size(); ++i)

@@ -21,7 +21,7 @@ struct DracoCounts {
     bool isEdgebreaker = false;
 };
 
-/// The counts that a stream begins with; nothing where it is none of a mesh (draft bitstream specification 2.2,
+/// The counts that a stream begins with; empty where the stream is not a mesh (draft bitstream specification 2.2,
 /// sections 3 and 4).
 std::optional<DracoCounts> countsOf(std::span<const unsigned char> bytes) {
     constexpr std::string_view kMagic = "DRACO";
@@ -32,7 +32,7 @@ std::optional<DracoCounts> countsOf(std::span<const unsigned char> bytes) {
     char magic[kMagic.size()];
     std::uint8_t major = 0, minor = 0, type = 0, method = 0, traversal = 0;
     std::uint16_t flags = 0;
-    // The header, and what the file says of itself.
+    // The header: kind of data and version.
     if (!buffer.Decode(magic, sizeof(magic)) || std::string_view(magic, sizeof(magic)) != kMagic) return std::nullopt;
     if (!buffer.Decode(&major) || !buffer.Decode(&minor) || major != 2 || minor != 2) return std::nullopt;
     if (!buffer.Decode(&type) || !buffer.Decode(&method) || !buffer.Decode(&flags)) return std::nullopt;
@@ -52,7 +52,7 @@ std::optional<DracoCounts> countsOf(std::span<const unsigned char> bytes) {
     return counts;
 }
 
-/// What the decoder makes of the stream. Throws where it makes nothing.
+/// Decodes the stream. Throws where the decoder fails.
 std::unique_ptr<draco::Mesh> decoded(std::span<const unsigned char> bytes, const GltfElement& extension) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -106,7 +106,7 @@ const draco::PointAttribute* dracoAttribute(const draco::Mesh& mesh, const GltfE
     if (!id) return nullptr;
     const draco::PointAttribute* attribute = mesh.GetAttributeByUniqueId(*id);
     if (attribute == nullptr) ids->fail("{} is attribute {}, which is not in the compressed data", name, *id);
-    // All values lie in its bytes, and all points have one of them.
+    // All values must be inside its bytes, and every point must have one.
     const std::int64_t end = attribute->byte_offset() + attribute->byte_stride() * std::int64_t(attribute->size());
     bool isWhole = attribute->buffer() != nullptr && attribute->byte_offset() >= 0 && attribute->byte_stride() >= 0 &&
                    end <= std::int64_t(attribute->buffer()->data_size()) &&

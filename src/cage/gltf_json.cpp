@@ -66,7 +66,7 @@ struct KnownExtension {
     const char* loss = ""; ///< what is missing where relief ignores it
 };
 
-/// The first one whose beginning fits holds; names that no line has are of a kind that is not known.
+/// The first row whose `beginning` a name starts with applies; a name that fits none is of an unknown kind.
 constexpr KnownExtension kExtensions[] = {
     {"KHR_mesh_quantization", ExtensionKind::read},
     {"KHR_draco_mesh_compression", ExtensionKind::read},
@@ -185,6 +185,13 @@ std::string GltfElement::text(std::string_view name) const {
     if (value == nullptr) return "";
     if (!value->is_string()) failKind(name, "a string");
     return value->get<std::string>();
+}
+
+std::optional<double> GltfElement::number(std::string_view name) const {
+    const Json* value = member(name);
+    if (value == nullptr) return std::nullopt;
+    if (!value->is_number()) failKind(name, "a number");
+    return value->get<double>();
 }
 
 std::vector<double> GltfElement::numbers(std::string_view name) const {

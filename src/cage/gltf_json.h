@@ -36,6 +36,7 @@ public:
     [[nodiscard]] std::uint64_t size(std::string_view member) const;
     [[nodiscard]] bool boolean(std::string_view member) const;
     [[nodiscard]] std::string text(std::string_view member) const;
+    [[nodiscard]] std::optional<double> number(std::string_view member) const; ///< nothing where it is absent
     [[nodiscard]] std::vector<double> numbers(std::string_view member) const;
     [[nodiscard]] std::vector<std::uint32_t> integers(std::string_view member) const;
     [[nodiscard]] std::optional<GltfElement> object(std::string_view member) const;

@@ -6,7 +6,7 @@
 namespace relief {
 namespace {
 
-/// Absent attributes are as good as none.
+/// The attributes of a primitive; an empty object where it has none.
 GltfElement attributesOf(const GltfElement& primitive) {
     static const nlohmann::json kNone = nlohmann::json::object();
     if (const std::optional<GltfElement> attributes = primitive.object("attributes")) return *attributes;
@@ -18,7 +18,7 @@ public:
     PrimitiveReader(const GltfElement& from, GltfMeshReading& reading)
         : from_(from), attributes_(attributesOf(from)), reading_(reading), accessors_(reading.accessors) {}
 
-    /// Without vertices and triangles where it makes no surface.
+    /// Returns a primitive without vertices and triangles where it makes no surface.
     GltfPrimitive read(std::uint32_t targetCount);
 
 private:
@@ -33,7 +33,7 @@ private:
     void keepLargest(std::span<const std::uint32_t> joints, std::span<const float> weights, std::uint32_t vertex);
     void readMaterial();
     [[nodiscard]] GltfUse use(const std::string& name, int type) const;
-    /// Of an attribute, the vertices in use; empty where the primitive does not have it.
+    /// Reads an attribute of the vertices in use; empty where the primitive does not have it.
     std::vector<float> attribute(const std::string& name, GltfUse use);
     [[nodiscard]] std::string placeOf(const std::string& name) const { return from_.place() + "/" + name; }
 
@@ -85,7 +85,7 @@ void PrimitiveReader::decode() {
         &reading_.dracoMeshes.decode(*extension_, vertexCount_, accessors_.count(indices, placeOf("indices")) / 3);
 }
 
-/// One vertex of the file after the other.
+/// Reads the corners of the triangles, as the file numbers vertices; without indices these are 0, 1, 2, ...
 std::vector<std::uint32_t> PrimitiveReader::readCorners() {
     const std::optional<std::uint32_t> indices = from_.integer("indices");
     if (compressed_ != nullptr) return dracoCorners(*compressed_);
@@ -97,7 +97,7 @@ std::vector<std::uint32_t> PrimitiveReader::readCorners() {
     return corners;
 }
 
-/// Lists, strips and fans (section 3.7.2.1).
+/// Makes separate triangles of lists, strips and fans (section 3.7.2.1).
 void PrimitiveReader::takeTriangles(std::vector<std::uint32_t> corners) {
     for (const std::uint32_t corner : corners)
         if (corner >= vertexCount_)
@@ -184,9 +184,9 @@ void PrimitiveReader::readTargets() {
     }
 }
 
-/// Joints and weights come in sets of four (section 3.7.3.3).
+/// Reads joints and weights, which come in sets of four (section 3.7.3.3).
 void PrimitiveReader::readInfluences() {
-    // All sets of the file.
+    // All sets of the file, each with its own accessor.
     std::vector<std::vector<std::uint32_t>> joints;
     std::vector<std::vector<float>> weights;
     for (;;) {
@@ -207,7 +207,7 @@ void PrimitiveReader::readInfluences() {
         reading_.oddities.add("of more than 8 joints at a vertex the 8 largest weights are kept, in primitives",
                               from_.place());
 
-    // Vertex by vertex, as many as are kept.
+    // Each vertex keeps the influences with the largest weights.
     primitive_.influenceCount = std::min(std::uint32_t(4 * joints.size()), kMostGltfInfluences);
     std::vector<std::uint32_t> jointsOfVertex(4 * joints.size());
     std::vector<float> weightsOfVertex(4 * joints.size());
@@ -246,7 +246,7 @@ void PrimitiveReader::keepLargest(std::span<const std::uint32_t> joints, std::sp
     }
 }
 
-/// Of materials only the names are of use, and nothing about them is a fault.
+/// Reads the name of the material, all that is used of it: nothing else about materials can be a fault.
 void PrimitiveReader::readMaterial() {
     const auto materials = reading_.document.json.find("materials");
     if (!from_.has("material") || materials == reading_.document.json.end() || !materials->is_array()) return;

@@ -6,7 +6,7 @@
 
 #include "cage/gltf_json.h"
 
-// Of tinygltf only its numbers and its words for them: it reads all of a file, needed or not, and believes it.
+// Only constants and small helpers of tinygltf are used: its loader reads all of a file, needed or not, unchecked.
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
 #define TINYGLTF_NO_FS
@@ -32,7 +32,7 @@ struct GltfDocument {
                                     const std::string& place) const;
 };
 
-/// Throws as readGltf.
+/// Reads the file and checks its JSON. Throws as readGltf.
 GltfDocument loadGltfDocument(const std::string& path, const Warn& warn);
 
 /// Bytes of buffers and of views of them, each buffer read when it is asked for first.
@@ -45,7 +45,7 @@ public:
 
 private:
     [[nodiscard]] std::span<const unsigned char> buffer(std::uint32_t index, const std::string& place);
-    /// What a view, or its extension, names of a buffer.
+    /// The bytes of a buffer that `from`, a view or its extension, names.
     [[nodiscard]] std::span<const unsigned char> part(const GltfElement& from, const std::string& what,
                                                       const std::string& place);
 
@@ -54,7 +54,10 @@ private:
     std::map<std::uint32_t, std::string> decompressed_; ///< views of EXT_meshopt_compression
 };
 
-/// The `byteCount` bytes of a view that its extension EXT_meshopt_compression holds compressed in `from`.
+/// The bytes of a picture that lies in a file below the folder of the glTF file, or in the "uri" itself.
+std::string readGltfPicture(const GltfElement& image);
+
+/// Decompresses `from`, which has the `byteCount` bytes of a view with EXT_meshopt_compression.
 std::string decodeMeshopt(const GltfElement& extension, std::uint64_t byteCount, std::span<const unsigned char> from);
 
 /// What an accessor must be to be read for a purpose.
@@ -63,7 +66,7 @@ struct GltfUse {
     int type = TINYGLTF_TYPE_SCALAR;
     bool takesNormalized = false;     ///< also bytes and shorts that stand for -1..1 or 0..1
     bool takesQuantized = false;      ///< also plain bytes and shorts, in files that name KHR_mesh_quantization
-    std::optional<std::size_t> count; ///< elements; any where it is not said
+    std::optional<std::size_t> count; ///< elements; empty: any number
     const draco::PointAttribute* decoded = nullptr; ///< holds the elements instead, where they were compressed
 };
 
@@ -72,11 +75,11 @@ class GltfAccessors {
 public:
     explicit GltfAccessors(const GltfDocument& document);
 
-    /// Floats, or integers mapped to them (section 3.11); all finite. `accessor` need not exist. Of all its elements,
-    /// or of `which`, each below its count.
+    /// Reads floats, or integers mapped to them (section 3.11), of all elements or of those in `which`, each below the
+    /// count. Throws for numbers that are not finite and where there is no such accessor.
     [[nodiscard]] std::vector<float> floats(std::uint32_t accessor, const GltfUse& use,
                                             std::optional<std::span<const std::uint32_t>> which = {});
-    /// Unsigned integers of at most `mostBytes` bytes each.
+    /// Reads unsigned integers of at most `mostBytes` bytes each, of all elements or of those in `which`.
     [[nodiscard]] std::vector<std::uint32_t> integers(std::uint32_t accessor, const GltfUse& use, int mostBytes,
                                                       std::optional<std::span<const std::uint32_t>> which = {});
     /// The number of elements, at least one. Throws where there is no such accessor.
@@ -91,7 +94,7 @@ public:
 private:
     struct Layout;
     struct Elements;
-    struct Sparse { ///< elements that are elsewhere, by their numbers, which rise
+    struct Sparse { ///< elements that are stored apart from the others; their numbers rise
         std::vector<std::uint32_t> indices;
         const unsigned char* values = nullptr;
         std::uint64_t stride = 0;
@@ -126,11 +129,11 @@ private:
     std::map<std::uint32_t, std::unique_ptr<draco::Mesh>> meshes_; ///< by buffer view
 };
 
-/// The attribute that the extension names so, or null where it does not name it. Throws where the mesh has none of that
-/// number, or it does not lie inside its own bytes.
+/// Finds the attribute of a mesh that the extension calls `name`; null where it has none of that name. Throws where the
+/// mesh lacks the attribute or its values are outside its bytes.
 const draco::PointAttribute* dracoAttribute(const draco::Mesh& mesh, const GltfElement& extension,
                                             const std::string& name);
-/// The corners of its triangles.
+/// Returns the corners of the triangles of a decoded mesh, three points each.
 std::vector<std::uint32_t> dracoCorners(const draco::Mesh& mesh);
 
 /// Oddities that many elements of a file may have: one warning each, with their number and the first place.
@@ -156,15 +159,15 @@ struct GltfMeshReading {
     GltfOddities& oddities;
 };
 
-/// Throws as readGltf.
+/// Reads a mesh with all its primitives. Throws as readGltf.
 GltfMesh readGltfMesh(const GltfElement& from, GltfMeshReading& reading);
 
-/// The animation that is asked for, by its name or its number; "": the first. `scene` has its nodes and meshes; what
-/// moves nodes that are not shown is skipped. Nothing where nothing is asked for and the file has none.
+/// Reads the animation `asked`, a name or a number; "": the first. `scene` has its nodes and meshes; channels that move
+/// nodes that are not shown are skipped. Empty where `asked` is "" and the file has no animation.
 std::optional<GltfClip> readGltfClip(const GltfDocument& document, const std::string& asked, const GltfScene& scene,
                                      GltfAccessors& accessors, GltfOddities& oddities);
 
-/// Numbers as vectors.
+/// Groups consecutive numbers into vectors.
 template <typename Vector>
 std::vector<Vector> grouped(const std::vector<float>& numbers) {
     std::vector<Vector> vectors(numbers.size() / std::size_t(Vector::length()));

@@ -77,7 +77,7 @@ void SceneReader::checkNode(std::uint32_t node, const char* what, const std::str
                       scene_.nodes.size());
 }
 
-/// Column after column. The last row may be off by what rounding does.
+/// Makes a matrix of 16 numbers, column by column. The last row may differ from 0 0 0 1 by rounding.
 glm::dmat4 SceneReader::affine(const double* numbers, const std::string& place) const {
     constexpr double kRounding = 1e-3;
     glm::dmat4 matrix;
@@ -94,7 +94,7 @@ glm::dmat4 SceneReader::affine(const double* numbers, const std::string& place) 
 
 // --- which nodes are needed --------------------------------------------------------------------------------------
 
-/// Children and parents of all nodes that have proper ones. What is wrong about the others is said where they are used.
+/// Finds children and parents of all nodes. Lists that are faulty are skipped here and refused where nodes are used.
 void SceneReader::joinNodes() {
     children_.resize(scene_.nodes.size());
     secondParents_.resize(scene_.nodes.size(), -1);
@@ -126,7 +126,7 @@ void SceneReader::useScene() {
         shown = scene.integers("nodes");
         for (const std::uint32_t node : shown) checkNode(node, "node", scene.place());
     }
-    // Those below them.
+    // The nodes below those, which must form a tree.
     isShown_.resize(scene_.nodes.size(), false);
     while (!shown.empty()) {
         const std::uint32_t node = shown.back();
@@ -144,13 +144,13 @@ void SceneReader::useScene() {
         if (isShown_[node]) useNode(node);
 }
 
-/// A node and all above it.
+/// Marks a node and all its ancestors as used.
 void SceneReader::useNode(std::uint32_t node) {
     for (int i = int(node); i >= 0 && !isUsed_[std::size_t(i)]; i = scene_.nodes[std::size_t(i)].parent)
         isUsed_[std::size_t(i)] = true;
 }
 
-/// Joints of the skins of shown meshes may stand elsewhere.
+/// Marks the joints of the skins of shown meshes, which may be nodes of another part of the file.
 void SceneReader::useJoints() {
     std::vector<bool> isRead(scene_.skins.size(), false);
     for (std::uint32_t node = 0; node < scene_.nodes.size(); ++node) {
@@ -167,7 +167,7 @@ void SceneReader::useJoints() {
     }
 }
 
-/// Parents first. With one parent each, only nodes of a cycle are never reached.
+/// Orders nodes so that parents come first. As each has one parent, only nodes of a cycle are never reached.
 void SceneReader::orderNodes() {
     std::vector<std::uint32_t>& order = scene_.order;
     for (std::uint32_t i = 0; i < scene_.nodes.size(); ++i)

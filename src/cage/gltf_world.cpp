@@ -3,7 +3,7 @@
 namespace relief {
 namespace {
 
-/// T * R * S (section 3.5.2)
+/// The matrix T * R * S of a node (section 3.5.2).
 glm::dmat4 matrixOf(const GltfTransform& transform) {
     glm::dmat4 matrix = glm::mat4_cast(transform.rotation);
     for (int k = 0; k < 3; ++k) matrix[k] *= transform.scale[k];

@@ -17,7 +17,7 @@ struct ObjTag {
 
 /// An OBJ text whose every line has been checked; after that tinyobjloader, which accepts anything, can be trusted.
 struct ObjScan {
-    std::string text; ///< only v, vt, vn, f, o, g and usemtl; one statement a line, comments and continuations gone
+    std::string text; ///< only v, vt, vn, f, o, g and usemtl; one statement per line, comments and continuations gone
     std::vector<ObjTag> tags;
     std::vector<dvec3> positions; ///< of the v lines, whose numbers are not in the text
     std::size_t vertexCount = 0, texCoordCount = 0, normalCount = 0, faceCount = 0, cornerCount = 0;
@@ -34,7 +34,7 @@ ObjScan scanObj(std::string_view text, const std::string& name, const Warn& warn
 
 /// Adds creases, corners, holes and rules to the cage. Throws Failure::input, naming the line, for wrong sizes, indices
 /// out of range, creases that are no edge of a face and values that do not exist. Unknown tags and hierarchical edits
-/// are warned of once a name.
+/// are warned of once per name.
 void applyObjTags(const std::vector<ObjTag>& tags, Cage& cage, const std::string& name, const Warn& warn);
 
 /// A word of the file as it may stand in a message: short and printable.

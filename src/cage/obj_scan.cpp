@@ -1,5 +1,5 @@
-// The checks that tinyobjloader leaves out. It reads "0,5", "nan" and missing words as 0, takes indices past the end,
-// counts a face's corners in one byte, drops faces of two corners and knows no line numbers.
+// The checks that tinyobjloader does not make. It reads "0,5", "nan" and missing words as 0, takes indices past the
+// end, counts a face's corners in one byte, drops faces of two corners and reports no line numbers.
 #include "cage/obj.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr std::size_t kMaxLineBytes = 16'000'000; ///< the words of a line take 
 enum Kind { position, texCoord, normal, kindCount };
 constexpr std::array kKindNames = {"vertex", "texture coordinate", "normal"};
 
-/// What is known of one kind while the lines go by.
+/// What the lines read so far have of one kind.
 struct Values {
     std::size_t count = 0;
     std::size_t largestIndex = 0, largestIndexLine = 0;  ///< faces may come before their vertices: compared at the end
@@ -111,6 +111,8 @@ void ObjScanner::scanLine(std::string_view line) {
     checkLength(line.size());
     if (line.find('\0') != std::string_view::npos)
         failHere("there is a zero byte in this line; save the file as plain UTF-8 text");
+
+    // Names may contain blanks, so they are not split into words; smoothing groups and material files have no effect.
     const std::string_view keyword = firstWord(line);
     const std::string_view rest = trimmed(line.substr(keyword.size()));
     if (keyword == "o" || keyword == "g" || keyword == "usemtl") {
@@ -119,6 +121,7 @@ void ObjScanner::scanLine(std::string_view line) {
     }
     if (keyword == "s" || keyword == "mtllib") return;
 
+    // Lines of numbers and faces are checked, then kept for tinyobjloader.
     splitWords(rest);
     if (keyword == "t") return scanTag();
     if (keyword == "v")
@@ -228,7 +231,7 @@ void ObjScanner::notePresence(Kind kind, std::size_t cornersWith) {
     if (cornersWith < words_.size() && values.firstLineWithout == 0) values.firstLineWithout = line_;
 }
 
-/// For a texture coordinate that does not exist, in a file whose normals no face names.
+/// The hint for a texture coordinate that does not exist in a file whose normals no face names; else "".
 const char* ObjScanner::slashHint(Kind kind) const {
     const bool isLikely = kind == texCoord && values_[normal].count > 0 && values_[normal].firstLineWith == 0;
     return isLikely ? "; if it counts normals, write v//vn" : "";

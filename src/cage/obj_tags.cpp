@@ -55,10 +55,10 @@ private:
     const std::string& name_;
     const Warn& warn_;
     std::vector<EdgeUse> edges_; ///< filled at the first crease
-    /// Vertices that files repeat along seams: a crease may name the two ends of an edge in different faces. The first
-    /// vertex at each one's place, and edges by those of their ends; filled at the first crease that needs them.
-    std::vector<std::uint32_t> places_;
-    std::multimap<std::uint64_t, std::uint64_t> edgesAtPlace_;
+    /// Files repeat vertices along seams, so that a crease may name the two ends of an edge in different faces. Per
+    /// vertex the first one at its position, and edges by those of their ends; filled when a crease first needs them.
+    std::vector<std::uint32_t> firstAtPosition_;
+    std::multimap<std::uint64_t, std::uint64_t> edgesByPosition_;
     std::map<std::uint64_t, std::size_t> creaseOf_; ///< edge key -> index of its crease
     std::map<std::uint32_t, std::size_t> sharpOf_;  ///< vertex -> index of its sharpness
     std::map<std::string, std::size_t> lineOf_;     ///< of the rules set so far
@@ -73,14 +73,14 @@ void TagReader::read(const ObjTag& tag) {
 }
 
 void TagReader::readCrease(const ObjTag& tag) {
-    checkSizes(tag, tag.ints.size() == 2 && tag.floats.size() == 1 && tag.strings.empty(), "2/1/0: one edge a tag");
+    checkSizes(tag, tag.ints.size() == 2 && tag.floats.size() == 1 && tag.strings.empty(), "2/1/0: one edge per tag");
     if (edges_.empty()) edges_ = sortedEdgeUses(cage_);
     const std::uint32_t a = checkIndex(tag, tag.ints[0], cage_.positions.size(), "vertex");
     const std::uint32_t b = checkIndex(tag, tag.ints[1], cage_.positions.size(), "vertex");
     const float sharpness = checkSharpness(tag, tag.floats[0]);
     if (hasEdge(edges_, a, b)) return addCrease(a, b, sharpness);
-    if (edgesAtPlace_.empty()) findUniquePoints();
-    const auto [first, end] = edgesAtPlace_.equal_range(edgeKey(places_[a], places_[b]));
+    if (edgesByPosition_.empty()) findUniquePoints();
+    const auto [first, end] = edgesByPosition_.equal_range(edgeKey(firstAtPosition_[a], firstAtPosition_[b]));
     if (first == end)
         failAtLine(name_, tag.line, "no face has an edge between vertices {} and {} (counted from 0)", a, b);
     for (auto edge = first; edge != end; ++edge)
@@ -99,12 +99,12 @@ void TagReader::addCrease(std::uint32_t a, std::uint32_t b, float sharpness) {
 }
 
 void TagReader::findUniquePoints() {
-    const UniquePoints places = relief::findUniquePoints(cage_.positions);
-    for (const std::uint32_t place : places.indices) places_.push_back(places.firsts[place]);
+    const UniquePoints unique = relief::findUniquePoints(cage_.positions);
+    for (const std::uint32_t point : unique.indices) firstAtPosition_.push_back(unique.firsts[point]);
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         const std::uint64_t key = edges_[i].key;
         if (i > 0 && edges_[i - 1].key == key) continue;
-        edgesAtPlace_.emplace(edgeKey(places_[key >> 32], places_[std::uint32_t(key)]), key);
+        edgesByPosition_.emplace(edgeKey(firstAtPosition_[key >> 32], firstAtPosition_[std::uint32_t(key)]), key);
     }
 }
 

@@ -68,11 +68,13 @@ CageSummary summarize(const Cage& cage) {
                         .sharpVertexCount = cage.sharpVertices.size(),
                         .holeCount = cage.holes.size(),
                         .texCoordCount = cage.texCoords.size()};
+    // Faces, and edges with what they make known of their vertices.
     countFaces(cage, summary);
     Neighbourhood around{.valence = std::vector<std::uint32_t>(cage.positions.size()),
                          .isOnBoundary = std::vector<bool>(cage.positions.size())};
     countEdges(cage, summary, around);
 
+    // Vertices: those that no face uses, often at the origin, do not count for the bounds.
     const std::uint32_t regular = cage.isAllTriangles() ? 6 : 4;
     for (std::size_t vertex = 0; vertex < cage.positions.size(); ++vertex) {
         const std::uint32_t valence = around.valence[vertex];

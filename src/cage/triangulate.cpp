@@ -43,6 +43,8 @@ DenseMesh denseMesh(const Cage& cage) {
     const std::vector<vec3> smooth = hasNormals ? std::vector<vec3>() : smoothNormals(cage);
     DenseMesh mesh;
     mesh.coordinates = cage.coordinates;
+
+    // Corners with the same position, texture coordinates and normal share a vertex.
     std::unordered_map<VertexKey, std::uint32_t, VertexHash> vertices;
     const auto vertexOf = [&](std::size_t corner) {
         const VertexKey key{cage.corners[corner], cage.hasTexCoords() ? cage.texCorners[corner] : 0,
@@ -55,6 +57,8 @@ DenseMesh denseMesh(const Cage& cage) {
         }
         return entry->second;
     };
+
+    // Each polygon becomes a fan around its first corner.
     std::size_t first = 0;
     for (const std::uint32_t size : cage.faceSizes) {
         for (std::uint32_t i = 2; i < size; ++i)

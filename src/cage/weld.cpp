@@ -1,4 +1,4 @@
-// Vertices of a cage that stand at one place, joined: what an exporter has split becomes one surface again.
+// Joins the vertices of a cage that are at the same position: what an exporter has split becomes one surface again.
 #include <algorithm>
 #include <map>
 #include <numeric>

@@ -37,7 +37,7 @@ struct Watertightness {
     /// Distance from an open edge to the nearest other edge that only one triangle has, end to end, in units in the
     /// last place of the ends' largest coordinate; 0 when nothing is open.
     float largestGapUlps = 0;
-    vec3 worstPlace{0}; ///< position of the largest gap
+    vec3 worstLocation{0}; ///< position of the largest gap
 
     [[nodiscard]] bool isBoundaryWhole() const;
     [[nodiscard]] bool hasAllTriangles() const { return triangles == expectedTriangles.value_or(triangles); }
@@ -54,7 +54,7 @@ Watertightness checkWatertight(const CapturedMesh& mesh, std::uint64_t expectedB
 // --- exact --------------------------------------------------------------------------------------------------------
 
 /// A point of the surface by face and (u,v).
-struct SurfacePlace {
+struct SurfaceLocation {
     std::uint32_t face = 0;
     vec2 uv{0};
 };
@@ -71,7 +71,7 @@ SurfaceSamples sampleEverywhere(const Surface& surface, std::size_t budget);
 
 struct ErrorSummary {
     double max = 0, rms = 0; ///< infinite when a value is not finite
-    SurfacePlace worst;
+    SurfaceLocation worst;
 };
 
 struct RegionErrors {
@@ -155,7 +155,7 @@ struct CornerReport {
     /// Degrees between the normal in the corner and that 1/1024 of the face away along the diagonal, less the degrees
     /// between that and the normal twice as far away.
     double max = 0;
-    SurfacePlace worst;
+    SurfaceLocation worst;
 };
 
 /// `results[i]` is the device's answer to `queries[i]`, each of which is a corner.
@@ -178,11 +178,11 @@ struct CurvatureReport {
     std::uint64_t count = 0;                 ///< points that are evaluated
     std::uint64_t countWithoutCurvature = 0; ///< points without curvature or tangent plane, or not finite: skipped
     double lowestFactor = 1;                 ///< minimum of 1 + h kappa
-    SurfacePlace lowestAt;
+    SurfaceLocation lowestAt;
     double area = 0, foldedArea = 0; ///< of the limit surface, cage units squared; folded where 1 + h kappa <= 0
     /// Angle between the full normal and the first-order one, which ignores curvature; the mean is over the area.
     double maxNormalAngle = 0, meanNormalAngle = 0; ///< degrees
-    SurfacePlace maxNormalAngleAt;
+    SurfaceLocation maxNormalAngleAt;
 
     [[nodiscard]] double foldedFraction() const { return area > 0 ? foldedArea / area : 0; }
 };
@@ -201,7 +201,7 @@ struct SeamReport {
     std::uint64_t seamEdgeCount = 0; ///< edges of the Surface whose faces have different texture coordinates
     double length = 0;               ///< of those edges on the limit surface, cage units
     double max = 0, mean = 0;        ///< cage units; the mean is over the length
-    SurfacePlace worst;              ///< in the owner's face
+    SurfaceLocation worst;           ///< in the owner's face
 };
 
 /// Measures all seams. Without texture coordinates every face takes the whole map, and every edge between faces can be

@@ -8,8 +8,8 @@
 namespace relief {
 namespace {
 
-/// Of a face: within the patch that holds a corner, since normals beside a vertex of high valence turn fast; not
-/// nearer, since OpenSubdiv's tangents of straight corners are 1.5e-5 off.
+/// Distance from a corner, as a fraction of the face: within the patch that holds the corner, since normals beside a
+/// vertex of high valence turn fast; not nearer, since OpenSubdiv's tangents of straight corners are 1.5e-5 off.
 constexpr double kBeside = 1.0 / 1024;
 
 /// Degrees between `normal` and the reference's normals beside the corner, less the turn of these.

@@ -51,12 +51,12 @@ void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& 
         ++report.countWithoutCurvature;
         return;
     }
-    const SurfacePlace place{query.face, query.uv};
+    const SurfaceLocation location{query.face, query.uv};
     ++report.count;
     report.area += weight * normal.area;
     if (factor <= 0) report.foldedArea += weight * normal.area;
-    if (factor < report.lowestFactor || report.count == 1) report.lowestFactor = factor, report.lowestAt = place;
-    if (angle > report.maxNormalAngle) report.maxNormalAngle = angle, report.maxNormalAngleAt = place;
+    if (factor < report.lowestFactor || report.count == 1) report.lowestFactor = factor, report.lowestAt = location;
+    if (angle > report.maxNormalAngle) report.maxNormalAngle = angle, report.maxNormalAngleAt = location;
     report.meanNormalAngle += angle * weight * normal.area;
 }
 

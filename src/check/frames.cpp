@@ -9,12 +9,12 @@ namespace relief {
 namespace {
 
 /// Sums squares into rms until finish().
-void add(ErrorSummary& summary, double error, const SurfacePlace& place) {
+void add(ErrorSummary& summary, double error, const SurfaceLocation& location) {
     if (!std::isfinite(error)) error = std::numeric_limits<double>::infinity();
     summary.rms += error * error;
     if (error <= summary.max) return;
     summary.max = error;
-    summary.worst = place;
+    summary.worst = location;
 }
 
 void finish(RegionErrors& errors) {
@@ -76,16 +76,16 @@ SampleError errorOf(const FrameComparison& with, std::size_t number, const Sampl
     return error;
 }
 
-void add(RegionErrors& errors, const SampleError& error, const SurfacePlace& place) {
+void add(RegionErrors& errors, const SampleError& error, const SurfaceLocation& location) {
     ++errors.count;
-    add(errors.point, error.point, place);
+    add(errors.point, error.point, location);
     if (!error.hasTangentPlane) {
         ++errors.countWithoutNormal;
         return;
     }
-    add(errors.tangent, error.tangent, place);
-    add(errors.limitNormal, error.limitNormal, place);
-    add(errors.normal, error.normal, place);
+    add(errors.tangent, error.tangent, location);
+    add(errors.limitNormal, error.limitNormal, location);
+    add(errors.normal, error.normal, location);
     errors.countMisplaced += error.isMisplaced ? 1 : 0;
     errors.countMisturned += error.isMisturned ? 1 : 0;
 }

@@ -12,7 +12,7 @@ constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
 double largest(const dvec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
-/// Largest difference of a coordinate.
+/// The largest difference of two points in any coordinate.
 double apart(const vec3& a, const vec3& b) { return largest(dvec3(a) - dvec3(b)); }
 
 /// The unit in the last place of the largest coordinate of both points.
@@ -33,7 +33,7 @@ Gap gapBetween(const vec3& a, const vec3& b, const vec3& c, const vec3& d) {
     return ac > bd ? Gap{ac, a, c} : Gap{bd, b, d};
 }
 
-/// Between two edges in the direction in which they fit better.
+/// The gap between two edges, end to end, in the direction in which it is smaller.
 Gap gapBetween(const LoneEdge& e, const LoneEdge& f) {
     const Gap same = gapBetween(e.ends[0], e.ends[1], f.ends[0], f.ends[1]);
     const Gap turned = gapBetween(e.ends[0], e.ends[1], f.ends[1], f.ends[0]);
@@ -49,7 +49,7 @@ PointTree treeOfMiddles(std::span<const LoneEdge> edges) {
     return PointTree(std::move(middles));
 }
 
-/// From edge `self` to the nearest other one: middles are never farther apart than the ends.
+/// The gap from edge `self` to the nearest other one. Middles of edges are never farther apart than the ends.
 Gap nearestGap(const PointTree& middles, std::span<const LoneEdge> edges, std::uint32_t self) {
     const LoneEdge& edge = edges[self];
     Gap best{.distance = apart(edge.ends[0], edge.ends[1]), .from = edge.ends[0], .to = edge.ends[1]};
@@ -71,7 +71,7 @@ void findLargestGap(std::span<const LoneEdge> edges, std::size_t askedCount, Wat
         const auto ulps = float(gap.distance / ulpOf(gap.from, gap.to));
         if (ulps <= result.largestGapUlps) continue;
         result.largestGapUlps = ulps;
-        result.worstPlace = gap.from;
+        result.worstLocation = gap.from;
     }
 }
 
@@ -131,11 +131,11 @@ void countTJunctions(std::span<const LoneEdge> open, std::initializer_list<std::
     const std::vector<dvec3> ends = distinctEnds(open);
     const PointTree tree(ends);
     std::vector<char> isInside(ends.size(), 0);
-    constexpr double kTouching = 0;
+    constexpr double kInside = 0;
     for (const auto edges : carriers)
         for (const LoneEdge& edge : edges) {
             const Carrier carrier(edge);
-            tree.search([&](const Bounds& box) { return carrier.distanceTo(box); }, kTouching,
+            tree.search([&](const Bounds& box) { return carrier.distanceTo(box); }, kInside,
                         [&](std::uint32_t point) { isInside[point] |= char(carrier.holds(ends[point])); });
         }
     result.tJunctions = std::uint64_t(std::count(isInside.begin(), isInside.end(), 1));

@@ -11,7 +11,7 @@ struct LoneEdge {
     vec3 ends[2];
 };
 
-/// Fills tJunctions, largestGapUlps and worstPlace for the first kMostDiagnosedEdges of `open`, which are inside the
+/// Fills tJunctions, largestGapUlps and worstLocation for the first kMostDiagnosedEdges of `open`, which are inside the
 /// cage; `boundary` are on its boundary.
 void diagnoseGaps(std::span<const LoneEdge> open, std::span<const LoneEdge> boundary, Watertightness& result);
 

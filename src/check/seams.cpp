@@ -8,7 +8,7 @@
 namespace relief {
 namespace {
 
-/// Samples along an edge: at least these, then two a texel so that no texel is passed over.
+/// Samples along an edge: at least this many, and two per texel, so that no texel is skipped.
 constexpr int kFewestSteps = 8, kMostSteps = 512;
 
 /// Texture coordinates nearer than this are the same: they come from two patches in double precision.

@@ -11,7 +11,7 @@ constexpr std::uint32_t kNone = 0xffffffffu;
 
 bool isFinite(const vec3& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
-bool isSamePlace(const vec3& a, const vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+bool isSamePosition(const vec3& a, const vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 /// A mixer of 64 bits (the finaliser of MurmurHash3) over the bits of all coordinates; -0 counts as +0.
 std::uint64_t hashOf(const vec3& p) {
@@ -24,9 +24,9 @@ std::uint64_t hashOf(const vec3& p) {
 
 /// Distinct points, numbered in the order of their first vertex.
 struct Weld {
-    std::vector<std::uint32_t> pointOf;     ///< one a vertex; kNone where it is not finite
-    std::vector<std::uint32_t> firstVertex; ///< one a point
-    std::vector<char> isOnBoundary;         ///< one a point: any of its vertices is
+    std::vector<std::uint32_t> pointOf;     ///< one per vertex; kNone where it is not finite
+    std::vector<std::uint32_t> firstVertex; ///< one per point
+    std::vector<char> isOnBoundary;         ///< one per point: any of its vertices is
 };
 
 /// An open-addressing table of points, at most half full.
@@ -39,7 +39,7 @@ Weld weld(const CapturedMesh& mesh) {
         const vec3& p = mesh.positions[vertex];
         if (!isFinite(p)) continue;
         std::uint64_t slot = hashOf(p) & mask;
-        while (table[slot] != kNone && !isSamePlace(mesh.positions[result.firstVertex[table[slot]]], p))
+        while (table[slot] != kNone && !isSamePosition(mesh.positions[result.firstVertex[table[slot]]], p))
             slot = (slot + 1) & mask;
         if (table[slot] == kNone) {
             table[slot] = std::uint32_t(result.firstVertex.size());
@@ -143,7 +143,7 @@ private:
     const CapturedMesh& mesh_;
     Weld weld_;
     Watertightness& result_;
-    std::vector<std::uint64_t> firsts_; ///< one a point and one more: its bucket in uppers_
+    std::vector<std::uint64_t> firsts_; ///< where the bucket of each point begins in uppers_; one more at the end
     std::vector<std::uint32_t> uppers_;
     std::vector<LoneEdge> open_, boundary_;
 };

@@ -146,7 +146,7 @@ struct NormalFrame {
     double area = 0;
 };
 
-/// Not finite where the frame has no tangent plane.
+/// Computes the unit normal and its derivatives. Not finite where the frame has no tangent plane.
 NormalFrame computeNormalFrame(const LimitFrame& frame);
 
 /// Normals of q = p + h n, not unit: as long as the area per unit of (u,v).
@@ -154,7 +154,7 @@ struct DisplacedNormals {
     dvec3 firstOrder{0}, full{0};
 };
 
-/// `dh` = (h_u, h_v). Not finite where the frame has no tangent plane.
+/// Computes the normals of q. `dh` = (h_u, h_v). Not finite where the frame has no tangent plane.
 DisplacedNormals computeDisplacedNormals(const LimitFrame& frame, double h, const dvec2& dh);
 
 /// A point of the displaced surface with its three unit normals.

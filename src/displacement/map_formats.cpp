@@ -154,7 +154,7 @@ std::array<std::uint8_t, 8> encodeBc4(std::span<const float, 16> values) {
             if (error < least) least = error, best[0] = red0, best[1] = red1;
         }
     const std::array<float, 8> palette = paletteOf(best[0], best[1]);
-    std::uint64_t bits = 0; // three a value, the first value lowest
+    std::uint64_t bits = 0; // three per value, the first value lowest
     for (std::size_t i = 0; i < 16; ++i) bits |= std::uint64_t(nearestIn(palette, values[i])) << (3 * i);
     std::array<std::uint8_t, 8> block{best[0], best[1]};
     for (std::size_t i = 0; i < 6; ++i) block[2 + i] = std::uint8_t(bits >> (8 * i));

@@ -98,13 +98,6 @@ void checkChannels(int channels, const std::string& name) {
         fail(Failure::input, "{}: a normal map has 3 channels (x, y and z), this picture has {}", name, channels);
 }
 
-void checkKind(const ImageInfo& info, const std::string& path) {
-    checkChannels(info.channels, path);
-    if (info.isSigned)
-        fail(Failure::input, "{}: its samples are signed integers ({}); a normal map has unsigned ones or floats", path,
-             info.sample);
-}
-
 void warnOfFile(const ImageInfo& info, const std::string& path, const Warn& warn) {
     if (!info.colorTag.empty())
         warn(fmt::format("{}: the file says that its numbers are colors ({}); normals are no colors, and are read as "
@@ -127,7 +120,7 @@ NormalMap makeNormalMap(const Image& picture, const std::string& name, const Nor
 
 NormalMap loadNormalMap(const std::string& path, const NormalOptions& options, const Warn& warn) {
     const ImageInfo info = readImageInfo(path, options.limits);
-    checkKind(info, path);
+    checkChannels(info.channels, path);
     warnOfFile(info, path, warn);
     NormalReader reader(info.width, info.height, path, options);
     const TakeRows take = [&](int, int, std::span<const float> texels) { reader.add(texels, info.channels); };

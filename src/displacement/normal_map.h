@@ -57,7 +57,7 @@ NormalMap makeNormalMap(const Image& picture, const std::string& name, const Nor
 
 /// Reads a normal map as raw data: no number is decoded as a color. Warns as makeNormalMap does, of a file that says
 /// that its numbers are sRGB, and of layers.
-/// Throws as readImage and makeNormalMap do, and Failure::input for signed integers.
+/// Throws as readImage and makeNormalMap do.
 NormalMap loadNormalMap(const std::string& path, const NormalOptions& options, const Warn& warn = warnOnStderr);
 
 } // namespace relief

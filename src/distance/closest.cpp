@@ -11,10 +11,10 @@ struct Query {
     const ClosestPoints* points;
     dvec3 p;
     double squared; ///< of the shortest distance so far
-    double slack;   ///< Embree looks around a rounded place
+    double slack;   ///< Embree searches around a rounded point
 };
 
-/// A radius that leaves nothing nearer out when it is rounded to float.
+/// A radius that, rounded to float, still contains everything that is nearer.
 float radiusOf(double distance) { return float(distance) * 1.000001f + std::numeric_limits<float>::min(); }
 
 bool visitTriangle(RTCPointQueryFunctionArguments* arguments) {

@@ -17,13 +17,14 @@ public:
     ClosestPoints(const ClosestPoints&) = delete;
     ClosestPoints& operator=(const ClosestPoints&) = delete;
 
-    /// To the nearest point; `limit` is a distance within which there is one (a good guess makes it quick).
+    /// Computes the distance from `p` to the nearest point. `limit`: a distance within which there is one; the closer
+    /// the quicker.
     [[nodiscard]] double distance(const dvec3& p, double limit) const;
     [[nodiscard]] const std::vector<vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }
 
 private:
-    std::vector<vec3> positions_; ///< one more than there are: Embree reads 16 bytes a vertex
+    std::vector<vec3> positions_; ///< one more than there are: Embree reads 16 bytes per vertex
     std::vector<std::uint32_t> indices_;
     std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device_{rtcNewDevice(nullptr), rtcReleaseDevice};
     std::unique_ptr<RTCSceneTy, void (*)(RTCScene)> scene_{nullptr, rtcReleaseScene};

@@ -9,7 +9,7 @@
 namespace relief {
 /// Points spread over a surface.
 struct Samples {
-    std::vector<dvec3> places;
+    std::vector<dvec3> points;
     std::vector<double> weights; ///< area that each stands for
     double coverage = 0;
 };
@@ -31,15 +31,15 @@ std::array<dvec2, 3> partOf(std::uint32_t i, std::uint32_t n) {
 
 /// Number `index` of the R2 sequence, folded into the triangle (0,0) (1,0) (0,1): Roberts, "The unreasonable
 /// effectiveness of quasirandom sequences", 2018.
-dvec2 sequencePlace(std::size_t index) {
+dvec2 sequencePoint(std::size_t index) {
     constexpr double kPlastic = 1.32471795724474602596; // the real root of x^3 = x + 1
     const double n = double(index) + 1;
-    dvec2 place(n / kPlastic, n / (kPlastic * kPlastic));
-    place -= glm::floor(place);
-    return place.x + place.y > 1 ? 1.0 - place : place;
+    dvec2 point(n / kPlastic, n / (kPlastic * kPlastic));
+    point -= glm::floor(point);
+    return point.x + point.y > 1 ? 1.0 - point : point;
 }
 
-/// A third dimension of it: which triangle of a run.
+/// A third dimension of the sequence, which chooses a triangle of a group.
 double sequenceShare(std::size_t index) {
     constexpr double kGolden = 0.61803398874989484820;
     const double x = (double(index) + 0.5) * kGolden;
@@ -54,7 +54,7 @@ public:
     Samples sample() {
         const std::size_t triangleCount = surface_.indices().size() / 3;
         if (triangleCount >= wanted_)
-            sampleRuns(triangleCount);
+            sampleGroups(triangleCount);
         else
             sampleParts(triangleCount);
         double area = 0;
@@ -78,10 +78,10 @@ private:
     }
     static dvec3 at(const Corners& c, const dvec2& w) { return c[0] + w.x * (c[1] - c[0]) + w.y * (c[2] - c[0]); }
 
-    void add(const dvec3& place, double area, std::span<const dvec3> covered) {
-        samples_.places.push_back(place);
+    void add(const dvec3& point, double area, std::span<const dvec3> covered) {
+        samples_.points.push_back(point);
         samples_.weights.push_back(area);
-        for (const dvec3& p : covered) samples_.coverage = std::max(samples_.coverage, glm::distance(p, place));
+        for (const dvec3& p : covered) samples_.coverage = std::max(samples_.coverage, glm::distance(p, point));
     }
 
     static std::uint32_t partsOf(const Corners& corners, double length) {
@@ -112,15 +112,15 @@ private:
             const std::uint32_t n = partsOf(corners, length);
             for (std::uint32_t i = 0; i < n * n; ++i) {
                 const std::array<dvec2, 3> part = partOf(i, n);
-                const Corners places{at(corners, part[0]), at(corners, part[1]), at(corners, part[2])};
-                add(at(places, sequencePlace(samples_.places.size())), areaOf(corners) / (double(n) * n), places);
+                const Corners ofPart{at(corners, part[0]), at(corners, part[1]), at(corners, part[2])};
+                add(at(ofPart, sequencePoint(samples_.points.size())), areaOf(corners) / (double(n) * n), ofPart);
             }
         }
     }
 
-    void sampleRuns(std::size_t triangleCount) {
-        for (std::size_t run = 0; run < wanted_; ++run) {
-            const std::size_t first = run * triangleCount / wanted_, end = (run + 1) * triangleCount / wanted_;
+    void sampleGroups(std::size_t triangleCount) {
+        for (std::size_t group = 0; group < wanted_; ++group) {
+            const std::size_t first = group * triangleCount / wanted_, end = (group + 1) * triangleCount / wanted_;
             std::vector<dvec3> covered;
             double area = 0;
             for (std::size_t t = first; t < end; ++t) {
@@ -128,13 +128,13 @@ private:
                 covered.insert(covered.end(), corners.begin(), corners.end());
                 area += areaOf(corners);
             }
-            double left = sequenceShare(run) * area;
+            double left = sequenceShare(group) * area;
             std::size_t chosen = first;
             for (; chosen + 1 < end; ++chosen) {
                 left -= areaOf(cornersOf(chosen));
                 if (left < 0) break;
             }
-            add(at(cornersOf(chosen), sequencePlace(run)), area, covered);
+            add(at(cornersOf(chosen), sequencePoint(group)), area, covered);
         }
     }
 
@@ -174,18 +174,18 @@ MeasuredSurface& MeasuredSurface::operator=(MeasuredSurface&&) noexcept = defaul
 double MeasuredSurface::distance(const dvec3& p) const {
     return parts_->points.distance(p, std::numeric_limits<double>::infinity());
 }
-std::size_t MeasuredSurface::sampleCount() const { return parts_->samples.places.size(); }
+std::size_t MeasuredSurface::sampleCount() const { return parts_->samples.points.size(); }
 double MeasuredSurface::coverage() const { return parts_->samples.coverage; }
 
 SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface& to) {
     const Samples& samples = from.parts_->samples;
-    std::vector<double> distances(samples.places.size());
+    std::vector<double> distances(samples.points.size());
     onAllCores(distances.size(), [&](std::size_t first, std::size_t end) {
         // A distance changes by no more than one moves: the last one limits the search for the next.
         double limit = std::numeric_limits<double>::infinity();
         for (std::size_t i = first; i < end; ++i) {
-            if (i > first) limit = distances[i - 1] + glm::distance(samples.places[i - 1], samples.places[i]);
-            distances[i] = to.parts_->points.distance(samples.places[i], limit);
+            if (i > first) limit = distances[i - 1] + glm::distance(samples.points[i - 1], samples.points[i]);
+            distances[i] = to.parts_->points.distance(samples.points[i], limit);
         }
     });
     SampledDistance result{.coverage = samples.coverage, .sampleCount = distances.size()};

@@ -18,6 +18,10 @@ dvec3 directionAt(double azimuth, double elevation) {
     return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
 }
 
+ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme) {
+    return {cage, {.scheme = scheme, .isolation = 2}};
+}
+
 std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map, double bound) {
     // A triangle's far half lies outside its domain: fold it back.
     const auto inDomain = [&](dvec2 uv) {
@@ -38,8 +42,7 @@ std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map
 }
 
 Camera frameCamera(std::span<const dvec3> points, const CameraOptions& options, double aspect) {
-    Bounds bounds;
-    for (const dvec3& p : points) bounds.add(p);
+    Bounds bounds = computeBounds(points);
     if (bounds.isEmpty()) bounds.add(dvec3(0));
     const double size = std::max(bounds.diagonal(), 1e-6);
 

@@ -27,12 +27,16 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
             ? planGrids(model, drawn.rates, isVisible)
             : planPatches(model, drawn.rates,
                           o.tessellatedVerticesPerDraw.value_or(device.traits().tessellatedVerticesPerDraw), isVisible);
+
+    // What the frame reports, summed over its instances.
     stats.triangleCount += plan.triangleCount;
     stats.vertexCount += plan.vertexCount;
     stats.faceCount += plan.faces.size();
     stats.hiddenFaceCount += plan.faces.size() - plan.visibleFaceCount;
     stats.drawCount += std::uint32_t(plan.batches.size());
     stats.maxRate = std::max(stats.maxRate, plan.maxRate);
+
+    // What the draws read: grids share index buffers, patches have one indirect draw per batch.
     drawn.drawFaces = uploadWords(device, "faces to draw", plan.faces);
     drawn.bindings[kBindDrawFaces] = drawn.drawFaces.binding();
     if (frame.path == Path::grid) {
@@ -49,12 +53,12 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
     drawn.diced = dicer.dice(*drawn.surface, drawn.rates,
                              {.normal = frame.options.normal,
                               .wantsTexCoords = wants.wantsTexCoords,
-                              .wantsTangents = wants.hasTangents,
+                              .wantsTexGradients = wants.hasTexGradients,
                               .memory = frame.options.memory});
     const DicedMesh& mesh = drawn.diced;
     drawn.bindings[kBindMesh] = mesh.vertices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
-    drawn.bindings[kBindMeshTangents] = mesh.tangents.binding();
+    drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
     stats.triangleCount += mesh.triangleCount;
     stats.vertexCount += mesh.sampleCount;
     stats.faceCount += drawn.surface->faces.size();

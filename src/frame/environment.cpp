@@ -53,6 +53,7 @@ Image convolved(const Image& source, int width, int height, double roughness) {
     std::vector<dvec3> directions; // of all texels of the source
     for (int j = 0; j < source.height; ++j)
         for (int i = 0; i < source.width; ++i) directions.push_back(texelDirection(source, i, j));
+    // Every texel is the mean of the source, weighted by the lobe around its direction with view and normal along it.
     Image to = blank(width, height);
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {

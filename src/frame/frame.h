@@ -25,6 +25,9 @@ struct Camera {
     double fieldOfView = 30, nearDistance = 0.1, farDistance = 10;
 };
 
+/// Makes the surface of a cage with little refinement: precise enough for outline(), and quick.
+ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme);
+
 /// Points that outline a displaced surface: a few per face, for framing. Uses the reference evaluator.
 /// `bound`: of heights that are no map's; points on both sides at that distance outline the surface then.
 std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map, double bound = 0);
@@ -50,7 +53,7 @@ struct Environment {
 /// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
 Environment studioEnvironment();
 
-/// From a picture (.hdr or .exr, width = 2 height). Throws Failure::input for other shapes and values below zero.
+/// Loads a .hdr or .exr with width = 2 height. Throws Failure::input for other shapes and values below zero.
 Environment loadEnvironment(const std::string& path);
 
 /// An environment on the device, which owns its texture: what Lighting refers to.
@@ -59,7 +62,7 @@ struct GpuEnvironment {
     vec3 irradiance[9]{};
 };
 
-/// A copy of `environment`: later changes of it do not show.
+/// Uploads a copy of `environment`: later changes of it do not show.
 GpuEnvironment uploadEnvironment(Device& device, const Environment& environment);
 
 struct Lighting {
@@ -134,7 +137,7 @@ struct FrameStats {
     std::uint64_t hiddenFaceCount = 0;              ///< out of view or facing away: only in the shadow map
     std::uint64_t vertexCount = 0;                  ///< distinct samples of the surface: what a dense mesh would store
     std::uint32_t drawCount = 0, maxRate = 0;
-    /// On the device; 0 where it cannot time.
+    /// Times of the passes on the device, milliseconds; 0 where it cannot time.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
     double wallMs = 0;       ///< rates to pixels on the host
     PipelineCounts pipeline; ///< of the color pass, where RenderOptions asks for it and the device can

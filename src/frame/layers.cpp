@@ -47,9 +47,12 @@ void Renderer::Parts::layerValuesPass(VkCommandBuffer commands, const Frame& fra
 /// The surface of the picture at the same rates, with one sample per pixel. Vertices of a diced mesh belong to several
 /// faces, which layers keep apart: there the grid draws the same surface.
 void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
+    // Targets are made when layers are first asked for.
     if (!layerTargets) layerTargets = makeLayerTargets(device, desc);
     if (frame.hasInstances() && !layerTargets->instances)
         layerTargets->instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_1_BIT);
+
+    // The instances of the picture again, with other targets, and as grids where they were diced.
     const bool wasDiced = frame.path == Path::dice;
     if (wasDiced) frame.path = Path::grid;
     FrameStats ignored;
@@ -68,6 +71,8 @@ void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
         layerPass(commands, frame);
         layerValuesPass(commands, frame);
     });
+
+    // Layers have cage units, whatever the unit of the model is.
     const auto* values = static_cast<const float*>(layerTargets->values.mapped);
     picture.layerValues.assign(values, values + std::size_t(desc.width) * std::size_t(desc.height) * kLayerChannels);
     if (frame.options.unit != 1) scaleLengths(picture.layerValues, frame.options.unit);

@@ -37,7 +37,7 @@ struct DrawPassRow {
     bool drawsLines = false;
 };
 
-/// In the order of DrawPass.
+/// The rows of all passes, in the order of DrawPass.
 constexpr DrawPassRow kDrawPasses[] = {
     {.name = "shadow", .constant = kPassShadow, .depth = kShadowFormat, .drawsHidden = true},
     {.name = "surface",
@@ -84,11 +84,11 @@ struct Technique {
     std::uint32_t constant; ///< kShow... of shared/constants.h
     bool isLit = false;     ///< shadows, environment, tone curve; else colours to be seen as they are
     bool wantsAlbedo = false;
-    bool wantsFaces = false; ///< fragments know their face: a diced mesh is drawn face by face
+    bool wantsFaces = false; ///< fragments read the number of their face: a diced mesh is drawn face by face
     bool hasLines = false;   ///< a pass of lines over the surface
 };
 
-/// In the order of Show.
+/// The rows of all techniques, in the order of Show.
 constexpr Technique kTechniques[] = {
     {.show = Show::shaded, .constant = kShowShaded, .isLit = true, .wantsAlbedo = true},
     {.show = Show::normal, .constant = kShowNormal},

@@ -86,6 +86,7 @@ Image displayed(const Picture& picture, const Finish& finish) {
     const double aspect = double(from.width) / from.height;
     for (int y = 0; y < to.height; ++y)
         for (int x = 0; x < to.width; ++x) {
+            // The curve is for the object's own color: alpha is divided out.
             const float* in = from.at(x, y);
             float* out = to.at(x, y);
             const float alpha = std::clamp(in[3], 0.0f, 1.0f);
@@ -94,12 +95,14 @@ Image displayed(const Picture& picture, const Finish& finish) {
                 const float value = in[c] / alpha;
                 color[c] = picture.isDisplayReferred ? std::clamp(value, 0.0f, 1.0f) : srgbOf(toneMapped(value));
             }
+            // Over the background in display values, as programs that show pictures compose them.
             if (isOpaque) {
                 const vec3 behind = finish.background == Background::color
                                         ? finish.color
                                         : studioBackground((x + 0.5) / to.width, (y + 0.5) / to.height, aspect);
                 color = glm::mix(behind, color, alpha);
-                // Gradients of 8 bits show their steps; a little ordered noise hides them.
+                // Gradients of 8 bits show their steps: interleaved gradient noise hides them (Jimenez, "Next
+                // Generation Post Processing in Call of Duty: Advanced Warfare", 2014).
                 const auto noise =
                     float(std::fmod(52.9829189 * std::fmod(0.06711056 * x + 0.00583715 * y, 1.0), 1.0) - 0.5);
                 if (alpha == 0 && finish.background == Background::studio) color += noise / 255.0f;

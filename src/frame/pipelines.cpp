@@ -22,7 +22,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();
     if (row.bendsNormals) {
-        c.hasTangents = pictures.needTangents();
+        c.hasTexGradients = pictures.needTexGradients();
         c.hasSlopes = pictures.slopes.has_value();
         c.normalMap = normalMapConstant(pictures);
     }
@@ -56,12 +56,14 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
 }
 
 const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, const Drawn& drawn, DrawPass pass) {
+    // Everything in which two pipelines may differ is part of the key.
     const std::vector<std::uint32_t> constants = constantsOf(frame, drawn, pass).values();
     std::vector<std::uint32_t> key = constants;
     key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.path), drawn.mesh != nullptr, drawn.isTriangles()});
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
 
+    // The fixed state follows from the row of the pass.
     const DrawPassRow& row = rowOf(pass);
     const bool isPatches = drawn.surface != nullptr && frame.path == Path::tessellation;
     GraphicsDesc graphics;

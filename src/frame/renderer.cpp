@@ -14,7 +14,7 @@ SamplerDesc clampedSampler(VkFilter filter) {
             .wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
 }
 
-/// Of a rotation with a uniform scale.
+/// The scale of a matrix that rotates and scales uniformly.
 double scaleOf(const mat4& toWorld) { return std::cbrt(glm::determinant(glm::dmat3(mat3(toWorld)))); }
 
 } // namespace
@@ -49,6 +49,7 @@ void Renderer::Parts::useEnvironment(Frame& frame) {
 
 /// Camera and light in the world, and the samples of the picture: what the passes over pixels read.
 void Renderer::Parts::describeView(Frame& frame) {
+    // The camera. fromClip is inverted in double precision: its terms differ by many orders of magnitude.
     const RenderOptions& o = frame.options;
     pass::View& view = frame.inputs.view;
     const double aspect = double(desc.width) / desc.height;
@@ -59,6 +60,7 @@ void Renderer::Parts::describeView(Frame& frame) {
     view.eye = vec3(o.camera.eye);
     view.pictureSize = {desc.width, desc.height};
 
+    // The key light, slightly warm. Its shadow is softened over three texels and biased by one and a half.
     pass::Light& light = frame.inputs.light;
     const dvec3 key = directionAt(o.lighting.keyAzimuth, o.lighting.keyElevation);
     light.keyDirection = vec3(key);
@@ -67,6 +69,8 @@ void Renderer::Parts::describeView(Frame& frame) {
     light.toShadow = shadowMatrix(key, o.bounds);
     light.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
     light.shadowSoftness = 3.0f / float(desc.shadowSide);
+
+    // The samples that light.comp reads.
     frame.bindings = resources.bindings();
     useEnvironment(frame);
     frame.inputs.material = frame.materials.front();
@@ -105,6 +109,7 @@ void Renderer::Parts::useSamplers(const Frame& frame, Drawn& drawn) {
 Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Instance& instance, std::size_t number) {
     Drawn drawn{.surface = instance.surface, .mesh = instance.mesh};
 
+    // Everything that the frame has, with the tables of this model in place of none.
     drawn.inputs = frame.inputs;
     drawn.bindings = frame.bindings;
     if (drawn.surface != nullptr)
@@ -115,6 +120,7 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
     drawn.bindings[kBindInputs].uniform = inputBuffers[number].handle.get();
     drawn.inputs.material = frame.materials[number];
 
+    // Vertices stay in the model's own space, where floats are precise; the matrices lead from there.
     const glm::dmat4 toWorld(instance.toWorld), fromWorld = glm::inverse(toWorld);
     const double scale = scaleOf(instance.toWorld);
     RELIEF_CHECK(scale > 0);
@@ -256,6 +262,7 @@ Picture Renderer::render(std::span<const Instance> instances, const RenderOption
 }
 
 std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift) {
+    // The instance alone, and a target that adds signed numbers.
     Parts& parts = *parts_;
     Parts::Frame frame = parts.prepare(std::span(&instance, 1), options);
     frame.drawn.front().inputs.view.crackShift = shift;
@@ -271,6 +278,8 @@ std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOption
                                                   .bytes = std::uint64_t(width) * height * 2,
                                                   .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                   .memory = MemoryUse::readback});
+
+    // One pass, copied to the host.
     parts.device.submitAndWait([&](VkCommandBuffer commands) {
         parts.writeInputs(commands, frame);
         Rendering rendering = parts.begin(commands, frame, {{attachment(sums)}, {}, parts.size()});
@@ -283,7 +292,7 @@ std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOption
         barrier(commands);
     });
     const auto* halves = static_cast<const std::uint16_t*>(read.mapped);
-    // A sum that is not 0; minus zero is zero.
+    // Pixels whose sum is not 0; minus zero is zero.
     return std::uint64_t(std::count_if(halves, halves + std::size_t(width) * height,
                                        [](std::uint16_t half) { return (half & 0x7fffu) != 0; }));
 }

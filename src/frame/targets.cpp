@@ -13,11 +13,14 @@ Targets makeTargets(Device& device, const RendererDesc& desc) {
                                     .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT,
                                     .samples = VK_SAMPLE_COUNT_4_BIT});
     };
+    // The G-buffer. Numbers of instances get their full size once a picture has several.
     Targets t;
     t.normals = samples("normals", kNormalFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.colors = samples("colors", kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.depths = samples("depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     t.instances = makeInstanceTarget(device, {.width = 1, .height = 1}, VK_SAMPLE_COUNT_4_BIT);
+
+    // The shadow map, and the picture as four halves per pixel.
     t.shadow = makeTexture(device, {.name = "shadow",
                                     .width = shadowSide,
                                     .height = shadowSide,

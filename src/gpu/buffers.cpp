@@ -24,15 +24,12 @@ Buffer makeBuffer(Device& device, const BufferDesc& desc) {
     buffer.handle = {device.handle(), handle, vkDestroyBuffer};
     device.setName(VK_OBJECT_TYPE_BUFFER, std::uint64_t(handle), desc.name);
 
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(device.handle(), handle, &needs);
-    const MemoryRange range = device.memory().take(needs, toFlags(desc.memory), BlockContent::buffers);
-    buffer.memory = Allocation(device, range);
-    checkVulkan(vkBindBufferMemory(device.handle(), handle, range.block->handle, range.offset), "vkBindBufferMemory");
+    buffer.memory = bindMemory<BlockContent::buffers>(device, handle, toFlags(desc.memory),
+                                                      vkGetBufferMemoryRequirements, vkBindBufferMemory);
     VkBufferDeviceAddressInfo address{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO};
     address.buffer = handle;
     buffer.address = vkGetBufferDeviceAddress(device.handle(), &address);
-    if (desc.memory != MemoryUse::device) buffer.mapped = device.memory().map(range);
+    if (desc.memory != MemoryUse::device) buffer.mapped = device.memory().map(buffer.memory.range());
     return buffer;
 }
 

@@ -70,6 +70,8 @@ BindingSet makeBindingSet(Device& device, const Pipeline& pipeline, const Pipeli
                           std::span<const Binding> bindings) {
     RELIEF_CHECK(bindings.size() <= layout.bindings.size());
     BindingSet set = device.descriptorPools().allocate(pipeline.setLayout.get());
+
+    // Writes point into these arrays, which therefore must not grow any more.
     const auto count = std::uint32_t(bindings.size());
     std::vector<VkDescriptorImageInfo> images(count);
     std::vector<VkDescriptorBufferInfo> buffers(count);
@@ -80,6 +82,7 @@ BindingSet makeBindingSet(Device& device, const Pipeline& pipeline, const Pipeli
         const VkDescriptorType type = layout.bindings[i];
         if (type == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER && binding.texels == VK_NULL_HANDLE)
             failWithoutView(device, i);
+        // Vulkan reads the one of the three that the type asks for.
         images[i] = {binding.sampler, binding.view, VK_IMAGE_LAYOUT_GENERAL};
         buffers[i] = {type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER ? binding.storage : binding.uniform, 0, VK_WHOLE_SIZE};
         VkWriteDescriptorSet& write = writes.emplace_back(VkWriteDescriptorSet{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});

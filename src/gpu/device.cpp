@@ -108,6 +108,7 @@ void Device::pickPhysical(const DeviceDesc& desc) {
 }
 
 void Device::makeDevice() {
+    // One queue for everything: passes follow each other anyway.
     std::uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
     std::vector<VkQueueFamilyProperties> families(count);
@@ -117,6 +118,7 @@ void Device::makeDevice() {
     if (family == families.end()) fail(Failure::device, "{} has no queue for graphics and compute", traits_.name);
     queueFamily_ = std::uint32_t(family - families.begin());
 
+    // Features of Vulkan 1.0 are used where the device has them; DeviceTraits says which.
     VkPhysicalDeviceFeatures has;
     vkGetPhysicalDeviceFeatures(physical_, &has);
     NeededFeatures use;
@@ -134,9 +136,12 @@ void Device::makeDevice() {
     feedback.transformFeedback = VK_TRUE;
     const char* const extension = VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME;
     if (traits_.hasTransformFeedback) use.v13.pNext = &feedback;
+
+    // Required: devices without these are never picked (isUsable).
     use.v12.bufferDeviceAddress = use.v12.scalarBlockLayout = VK_TRUE;
     use.v13.dynamicRendering = use.v13.synchronization2 = use.v13.maintenance4 = VK_TRUE;
 
+    // The device, its queue, and what names its objects.
     const float priority = 1;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = queueFamily_;

@@ -73,7 +73,7 @@ MemoryRange DeviceMemory::place(std::uint32_t type, BlockContent content, std::u
     return {block, block->free.take(bytes, alignment).value(), bytes};
 }
 
-/// Null where the driver has no memory for it.
+/// Adds a block; null where the driver has no memory for it.
 MemoryBlock* DeviceMemory::addBlock(std::uint32_t type, BlockContent content, std::uint64_t bytes, bool isShared) {
     VkMemoryAllocateFlagsInfo addressable{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     addressable.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;

@@ -36,7 +36,7 @@ public:
     /// Throws Failure::device where the heap does not hold `needs` beside what is taken, or the driver refuses.
     MemoryRange take(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags, BlockContent content);
     void giveBack(const MemoryRange& range);
-    /// Where the host sees the range; only of memory taken with VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT.
+    /// Maps the range for the host; only of memory taken with VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT.
     void* map(const MemoryRange& range);
 
     [[nodiscard]] std::uint64_t takenBytes() const { return takenBytes_; }
@@ -57,5 +57,18 @@ private:
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
     std::uint64_t takenBytes_ = 0, peakBytes_ = 0, reservedBytes_ = 0;
 };
+
+/// Takes memory for a new buffer or image and binds it. `getNeeds` and `bind` are Vulkan's functions for its
+/// kind. Throws as DeviceMemory::take().
+template <BlockContent kContent, typename Handle, typename GetNeeds, typename Bind>
+Allocation bindMemory(Device& device, Handle handle, VkMemoryPropertyFlags flags, GetNeeds getNeeds, Bind bind) {
+    VkMemoryRequirements needs;
+    getNeeds(device.handle(), handle, &needs);
+    const MemoryRange range = device.memory().take(needs, flags, kContent);
+    Allocation allocation(device, range);
+    checkVulkan(bind(device.handle(), handle, range.block->handle, range.offset),
+                kContent == BlockContent::buffers ? "vkBindBufferMemory" : "vkBindImageMemory");
+    return allocation;
+}
 
 } // namespace relief

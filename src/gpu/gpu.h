@@ -1,5 +1,5 @@
 // A Vulkan 1.3 device without a window: owners made from descriptions, one barrier, one way to run commands.
-// Core features only: dynamic rendering, synchronization2, buffer addresses, scalar layout. Knows no geometry.
+// Core features only: dynamic rendering, synchronization2, buffer addresses, scalar layout. It contains no geometry.
 //
 // Nothing here may be called from two threads at once. A Device must outlive everything that was made with it.
 // Errors are Failure::device unless stated otherwise.

@@ -74,6 +74,8 @@ VkInstance createInstance(bool validate, std::vector<std::string>* messages) {
     VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     app.pApplicationName = app.pEngineName = "relief";
     app.apiVersion = VK_API_VERSION_1_3;
+
+    // The messenger hangs off the creation, too, so that messages about it are not lost.
     const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     VkDebugUtilsMessengerCreateInfoEXT messenger = messengerInfo(messages);
     VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
@@ -81,6 +83,7 @@ VkInstance createInstance(bool validate, std::vector<std::string>* messages) {
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronization;
 
+    // Debug utilities also give objects names for debuggers, so they are on wherever they exist.
     std::vector<const char*> extensions;
     if (validate) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     if (validate || hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
@@ -108,6 +111,7 @@ std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
 }
 
 DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> maxTexelBufferElements) {
+    // What Vulkan says of the device.
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
     properties.pNext = &driver;
@@ -119,6 +123,7 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
 
+    // Who it is.
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
     const std::uint32_t api = properties.properties.apiVersion;
     DeviceTraits traits;
@@ -128,6 +133,8 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
         fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
     traits.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     if (traits.isCpu) traits.smallGroup = std::max(subgroup.subgroupSize, 1u);
+
+    // Which paths it can draw by, and how shaders read tables.
     traits.hasTessellation = features.tessellationShader == VK_TRUE;
     traits.maxAnisotropy = features.samplerAnisotropy == VK_TRUE ? limits.maxSamplerAnisotropy : 1;
     traits.hasWireframe = features.fillModeNonSolid == VK_TRUE;
@@ -139,6 +146,8 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     traits.maxStorageBufferRange = limits.maxStorageBufferRange;
     traits.readsTablesAs = traits.maxTexelBufferElements < kEnoughTexelBufferElements ? TableAccess::storageBuffers
                                                                                       : TableAccess::texelBuffers;
+
+    // Its limits.
     traits.maxImageSide = limits.maxImageDimension2D;
     traits.maxDrawIndirectCount = features.multiDrawIndirect == VK_TRUE ? limits.maxDrawIndirectCount : 1;
     traits.countsPipeline = features.pipelineStatisticsQuery == VK_TRUE;
@@ -146,6 +155,8 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
         if ((memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0)
             traits.heapBytes = std::max<std::uint64_t>(traits.heapBytes, memory.memoryHeaps[i].size);
+
+    // Measured properties of one driver, which no query reports.
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE) {
         traits.tessellatedVerticesPerDraw = kLavapipeVerticesPerDraw;
         traits.meshTrianglesInFlight = kLavapipeTrianglesInFlight;

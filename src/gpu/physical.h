@@ -30,9 +30,9 @@ struct NeededFeatures {
     NeededFeatures& operator=(const NeededFeatures&) = delete;
 };
 
-/// Whether relief can run on it.
+/// Whether relief can run on the device.
 bool isUsable(VkPhysicalDevice physical);
-/// Lower is preferred: discrete GPUs first, CPUs last.
+/// The rank of a device for the default choice, lowest first: discrete GPUs before others, CPUs last.
 int rank(VkPhysicalDevice physical);
 
 } // namespace relief

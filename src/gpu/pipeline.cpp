@@ -74,6 +74,7 @@ VkPipelineRasterizationStateCreateInfo rasterState(const GraphicsDesc& desc) {
 } // namespace
 
 Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
+    // Layout and stages. All stages get the same constants.
     Pipeline pipeline;
     makeLayout(device, desc.layout, pipeline);
     const Constants constants(desc.constants);
@@ -84,6 +85,7 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
         stages.push_back(stageInfo(stage.stage, modules.back().get(), constants));
     }
 
+    // Primitives: vertices come from tables, never from vertex buffers, and patches have one point each.
     const VkPipelineVertexInputStateCreateInfo noVertices{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
     assembly.topology = desc.topology;
@@ -92,6 +94,8 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
     viewport.viewportCount = viewport.scissorCount = 1;
     const VkPipelineRasterizationStateCreateInfo raster = rasterState(desc);
+
+    // Samples. Blending adds, where it is on, and then every triangle counts: no depth.
     VkPipelineMultisampleStateCreateInfo samples{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     samples.rasterizationSamples = desc.samples;
     VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
@@ -106,6 +110,8 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
     blend.attachmentCount = std::uint32_t(attachments.size());
     blend.pAttachments = attachments.data();
+
+    // The size of pictures is dynamic, so that pipelines serve all of them.
     const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     VkPipelineDynamicStateCreateInfo dynamic{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
     dynamic.dynamicStateCount = 2;
@@ -115,6 +121,7 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     rendering.pColorAttachmentFormats = desc.colorFormats.data();
     rendering.depthAttachmentFormat = desc.depthFormat;
 
+    // All together.
     VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO};
     info.pNext = &rendering;
     info.stageCount = std::uint32_t(stages.size());

@@ -32,6 +32,8 @@ Texture makeTexture(Device& device, const TextureDesc& desc) {
     if (side > device.traits().maxImageSide)
         fail(Failure::device, "an image of {} x {} is larger than {} takes ({})", desc.width, desc.height,
              device.traits().name, device.traits().maxImageSide);
+
+    // The image.
     Texture texture;
     texture.desc = desc;
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
@@ -47,11 +49,9 @@ Texture makeTexture(Device& device, const TextureDesc& desc) {
     texture.handle = {device.handle(), handle, vkDestroyImage};
     device.setName(VK_OBJECT_TYPE_IMAGE, std::uint64_t(handle), desc.name);
 
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(device.handle(), handle, &needs);
-    const MemoryRange range = device.memory().take(needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, BlockContent::images);
-    texture.memory = Allocation(device, range);
-    checkVulkan(vkBindImageMemory(device.handle(), handle, range.block->handle, range.offset), "vkBindImageMemory");
+    // Its memory, its layout, which stays GENERAL, and its view.
+    texture.memory = bindMemory<BlockContent::images>(device, handle, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                                      vkGetImageMemoryRequirements, vkBindImageMemory);
     device.uploads().toGeneral(texture, allMips(desc));
     texture.view = makeView(device, texture);
     return texture;

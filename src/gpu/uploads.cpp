@@ -40,7 +40,7 @@ void PendingUploads::forget(const MemoryRange& target) {
     std::erase_if(images_, [&](const Image& image) { return image.target == target; });
     for (std::size_t i = copies_.size(); i-- > 0;) {
         if (copies_[i].target != target) continue;
-        // Its staging ends when it is no part of the list any more: that forgets as well.
+        // Taken off the list before its staging buffer ends, because that calls this function, too.
         const Copy gone = std::move(copies_[i]);
         copies_.erase(copies_.begin() + std::ptrdiff_t(i));
         stagedBytes_ -= gone.staging.memory.range().bytes;

@@ -95,7 +95,7 @@ void timeFrames(SuiteContext& context, const TestScene& scene, SceneOnDevice& on
     add(Method::denseSkinnedOnDevice, skinned, [&](int round) { skinner.pose(makeColumnPose(on.bounds, round)); });
     add(Method::densePosedOnHost, sent, [&](int round) {
         poseOnHost(mesh, meshRig, makeColumnPose(on.bounds, round), posed);
-        sender.upload(posed.positions, posed.normals);
+        sender.upload(posed);
     });
 
     Renderer renderer(context.device,

@@ -243,7 +243,7 @@ private:
         addDraco(entries, methods.draco, mesh.first, tolerance);
     }
 
-    /// With as few bits as the tolerance allows.
+    /// Encodes a mesh with as few bits as the tolerance allows.
     void addDraco(std::vector<Entry>& entries, Method method, const DenseMesh& mesh, double tolerance) {
         for (int bits = 8; bits <= 18; ++bits) {
             // A coordinate is off by up to half a step, evenly: across the surface an RMS error of a step / sqrt(12).

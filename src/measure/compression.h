@@ -45,11 +45,11 @@ public:
     [[nodiscard]] int referenceRate() const { return referenceRate_; }
     [[nodiscard]] int largestRate() const { return largestRate_; }
     [[nodiscard]] Compression uncompressed() const; ///< at the largest rate
-    /// Columns of maps from 16 up to the scene's own, in steps of the fourth root of two.
+    /// Lists columns of maps from 16 up to the scene's own, in steps of the fourth root of two.
     [[nodiscard]] std::vector<int> listMapColumns() const;
     [[nodiscard]] int computeMapRows(int columns) const;
 
-    /// The resampled map in a format.
+    /// Makes the resampled map in a format.
     const EncodedMap& map(int columns, MapFormat format);
     SurfaceModel makeModel(const Compression& compression);
     DenseMesh makeMesh(const Compression& compression);

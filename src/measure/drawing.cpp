@@ -5,11 +5,7 @@
 
 namespace relief {
 
-double computeDiagonal(const Cage& cage) {
-    Bounds bounds;
-    for (const vec3& p : cage.positions) bounds.add(dvec3(p));
-    return bounds.diagonal();
-}
+double computeDiagonal(const Cage& cage) { return computeBounds(cage.positions).diagonal(); }
 
 std::vector<Camera> makeCameraPath(std::span<const dvec3> points) {
     std::vector<Camera> views;
@@ -31,10 +27,9 @@ SceneOnDevice::SceneOnDevice(Device& device, const TestScene& scene)
                                                                        .cagePositions = scene.cage.positions,
                                                                        .height = &scene.height,
                                                                        .encoding = &scene.heightEncoding}) {
-    const ReferenceSurface coarse(scene.cage, {.scheme = scene.surface.scheme, .isolation = 2});
-    const std::vector<dvec3> points = outline(coarse, &scene.height);
+    const std::vector<dvec3> points = outline(makeCoarseSurface(scene.cage, scene.surface.scheme), &scene.height);
     views = makeCameraPath(points);
-    for (const dvec3& p : points) bounds.add(p);
+    bounds = computeBounds(points);
 }
 
 int SceneOnDevice::chooseRate(double triangleCount) const {

@@ -24,6 +24,9 @@ LineStyle chooseStyle(Method method) {
     case Method::simplifiedDraco: return {2, 2};
     case Method::grid: return {3, 1};
     case Method::dicing: return {4, 2};
+    case Method::displacement: return {0, 0};
+    case Method::displacementAndBump: return {1, 1};
+    case Method::bump: return {2, 2};
     default: return {5, 0};
     }
 }
@@ -171,6 +174,7 @@ std::string drawScalingFigures(const Results& results) {
 }
 
 std::string drawBreakEvenFigures(const Results& results) {
+    // All figures have the same axes and the same rule at 1.
     const std::vector<const Row*> rows = selectRows(results, Suite::scaling, Axis::triangles);
     const auto figure = [&](const char* title, Metric metric, const char* caption) {
         return drawFigure({.title = title,
@@ -210,6 +214,28 @@ std::string drawAnimateFigures(const Results& results) {
                        .yScale = Scale::milliseconds,
                        .lines = makeLines(rows, takeAt, take(Metric::frameTime))}) +
            "</div>";
+}
+
+std::string drawDetailFigures(const Results& results) {
+    std::string html;
+    for (const std::string& scene : listScenes(results, Suite::detail)) {
+        std::vector<const Row*> rows = selectScene(selectRows(results, Suite::detail, Axis::segmentPixels), scene);
+        std::erase_if(rows, [](const Row* row) { return row->method == Method::undisplaced; });
+        html += "<div class=\"figures\">" +
+                drawFigure({.title = scene + ": picture error against time",
+                            .xLabel = "time of a frame",
+                            .yLabel = "RMSE of two views, object only",
+                            .caption = "Segments of 8 to 0.5 pixels; the reference is displacement with segments of a "
+                                       "quarter of a pixel. Left and down is better.",
+                            .xScale = Scale::milliseconds,
+                            .lines = makeLines(rows, take(Metric::frameTime), take(Metric::pictureRmse))}) +
+                drawFigure({.title = scene + ": picture error against the length of segments",
+                            .xLabel = "pixels per segment",
+                            .yLabel = "RMSE of two views, object only",
+                            .lines = makeLines(rows, takeAt, take(Metric::pictureRmse))}) +
+                "</div>";
+    }
+    return html;
 }
 
 } // namespace relief

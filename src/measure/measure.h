@@ -50,7 +50,7 @@ std::uint64_t computePosedDenseBytes(const DenseLayout& layout, std::uint64_t ve
 
 // --- smaller maps and meshes ---------------------------------------------------------------------------------------
 
-/// The map of other size, 32-bit floats, whose lookups are nearest to those of `map` by least squares.
+/// Makes the map of another size, 32-bit floats, whose lookups are nearest to those of `map` by least squares.
 HeightMap resampleMap(const HeightMap& map, int width, int height);
 
 /// A mesh in another form: its geometry after decoding, and its bytes.
@@ -58,12 +58,13 @@ struct EncodedMesh {
     DenseMesh decoded;
     std::uint64_t residentBytes = 0, diskBytes = 0; ///< 0 where the form is not used on the device, or on disk
 };
-/// In kQuantisedLayout, triangles and vertices in meshoptimizer's order for caches; on disk in meshoptimizer's coding.
+/// Quantises a mesh to kQuantisedLayout, triangles and vertices in meshoptimizer's order for caches; its bytes on disk
+/// are those of meshoptimizer's coding.
 EncodedMesh quantiseMesh(const DenseMesh& mesh);
-/// At most that many triangles where meshoptimizer's simplifier can; it may stop earlier at seams.
+/// Simplifies a mesh to `triangleCount` triangles by meshoptimizer, which may stop at more because of seams.
 DenseMesh simplifyMesh(const DenseMesh& mesh, std::size_t triangleCount);
-/// By Draco's edgebreaker: `positionBits` per coordinate, 8 per component of normals, 12 per texture coordinate.
-/// Throws Failure::internal where Draco fails.
+/// Encodes a mesh by Draco's edgebreaker: `positionBits` per coordinate, 8 per component of normals, 12 per texture
+/// coordinate. Throws Failure::internal where Draco fails.
 EncodedMesh encodeWithDraco(const DenseMesh& mesh, int positionBits);
 
 // --- suites --------------------------------------------------------------------------------------------------------

@@ -7,13 +7,13 @@ namespace relief {
 
 // --- questions to results
 
-/// The rows of a suite and axis, in order.
+/// Selects the rows of a suite and axis, in order.
 std::vector<const Row*> selectRows(const Results& results, Suite suite, Axis axis);
-/// Those of one scene.
+/// Keeps the rows of one scene.
 std::vector<const Row*> selectScene(std::vector<const Row*> rows, const std::string& scene);
-/// The scenes of a suite, in order of appearance.
+/// Lists the scenes of a suite, in order of appearance.
 std::vector<std::string> listScenes(const Results& results, Suite suite);
-/// The metrics of rows, in order of appearance.
+/// Lists the metrics of rows, in order of appearance.
 std::vector<Metric> listMetrics(std::span<const Row* const> rows);
 
 /// A figure of a goal with its unit: "34.7 ×", "12 %", "1.5 MB".
@@ -30,6 +30,7 @@ std::string drawBandwidthFigures(const Results& results);
 std::string drawScalingFigures(const Results& results);
 std::string drawBreakEvenFigures(const Results& results);
 std::string drawAnimateFigures(const Results& results);
+std::string drawDetailFigures(const Results& results);
 
 /// A table of rows of one suite, scene and axis: methods down, metrics across.
 std::string makeHtmlTable(std::span<const Row* const> rows);

@@ -24,11 +24,10 @@ PictureComparison::PictureComparison(SuiteContext& context, CompressionStudy& st
                 {.width = context.pictureSide() / 2, .height = context.pictureSide() / 2, .shadowSide = 1}) {
     // Two opposite views of the scene's outline.
     const TestScene& scene = study.scene();
-    const ReferenceSurface coarse(scene.cage, {.scheme = scene.surface.scheme, .isolation = 2});
-    const std::vector<dvec3> points = outline(coarse, &scene.height);
+    const std::vector<dvec3> points = outline(makeCoarseSurface(scene.cage, scene.surface.scheme), &scene.height);
     const std::vector<Camera> path = makeCameraPath(points);
     views_ = {path[0], path[2]};
-    for (const dvec3& p : points) bounds_.add(p);
+    bounds_ = computeBounds(points);
     const MeshModel model = uploadDenseMesh(context.device, study.reference());
     for (std::size_t view = 0; view < views_.size(); ++view)
         reference_.push_back(finish(renderer_.render(model, renderOptions(view))));
@@ -41,7 +40,7 @@ RenderOptions PictureComparison::renderOptions(std::size_t view) const {
     return options;
 }
 
-/// As relief render writes it: differences are those of the files that a user sees.
+/// Writes the picture as relief render does and reads it back: differences are those that a user sees.
 PictureComparison::View PictureComparison::finish(const Picture& picture) {
     const std::string path = folder_ / "picture.png";
     writePicture(path, picture);

@@ -94,7 +94,7 @@ struct Section {
     std::string figures;
 };
 
-/// Empty where the suite did not run. Tables are folded away where there are figures.
+/// Makes the section of a suite; empty where it did not run. Tables are folded away where there are figures.
 std::string makeSection(const Results& results, const Section& section) {
     const std::string tables = makeTables(results, section.suite);
     if (tables.empty()) return "";
@@ -182,6 +182,10 @@ std::string makeReport(const Results& results, std::span<const Goal> goals) {
         makeSection(results, {Suite::frame, "A frame of a million triangles", "Passes as the device timed them.", ""});
     html += makeSection(
         results, {Suite::animate, "Animation", "What a new pose sends to the device.", drawAnimateFigures(results)});
+    html += makeSection(results, {Suite::detail, "Displacement, bump, and both",
+                                  "What heights cost as geometry and as bent normals, and how near each comes to "
+                                  "displacement with segments of a quarter of a pixel.",
+                                  drawDetailFigures(results)});
     html += makeSection(
         results,
         {Suite::memory, "Memory",

@@ -6,7 +6,7 @@
 namespace relief {
 namespace {
 
-/// Between neighbours of sorted samples (Hyndman and Fan 1996, definition 7).
+/// A percentile, interpolated between neighbours of sorted samples (Hyndman and Fan 1996, definition 7).
 double interpolateQuantile(const std::vector<double>& sorted, double fraction) {
     RELIEF_CHECK(!sorted.empty());
     const double rank = fraction * double(sorted.size() - 1);

@@ -32,7 +32,9 @@ enum class Metric {
     // Memory of a process.
     surfaceAndMapBytes, bufferBytes, bufferBytesAtRate1, processBytes, processBytesAtRate1, memoryPerBufferByte,
     // Starting up.
-    coldRunTime, warmRunTime, deviceOpenTime, warmFrameTime, coldRunPerFrame
+    coldRunTime, warmRunTime, deviceOpenTime, warmFrameTime, coldRunPerFrame,
+    // Against displacement whose segments are a quarter as long.
+    errorPerFinerError, timePerFinerTime
 };
 // clang-format on
 struct MetricInfo {
@@ -50,12 +52,14 @@ enum class Method {
     denseRaw, denseQuantised, denseDraco, simplifiedRaw, simplifiedQuantised, simplifiedDraco,
     tessellation, grid, dicing,
     posedCage, posedCageTessellation, posedCageDicing, denseSkinnedOnDevice, densePosedOnHost,
-    preparation, reliefRender
+    preparation, reliefRender,
+    displacement, displacementAndBump, bump, undisplaced
 };
 // clang-format on
-enum class Suite { bandwidth, frame, animate, memory, scaling, startup };
-/// What a suite varies. `pixelTriangles` are triangles in a picture that has one pixel for each.
-enum class Axis { none, tolerance, triangles, pixelTriangles, faces };
+enum class Suite { bandwidth, frame, animate, memory, scaling, startup, detail };
+/// What a suite varies. `pixelTriangles` are triangles in a picture that has one pixel for each, `segmentPixels` the
+/// length of segments on screen.
+enum class Axis { none, tolerance, triangles, pixelTriangles, faces, segmentPixels };
 /// Whether a value was measured (also by counting or writing a file) or computed from measured values.
 enum class Origin { measured, computed };
 
@@ -139,7 +143,7 @@ struct Comparison {
 
     [[nodiscard]] bool hasRegression() const;
 };
-/// `tolerance`: the growth that is no regression, as a fraction.
+/// Compares times and bytes of two results. `tolerance`: the growth that is no regression, as a fraction.
 Comparison compareResults(const Results& before, const Results& after, double tolerance);
 
 // --- goals ---------------------------------------------------------------------------------------------------------
@@ -181,15 +185,18 @@ std::vector<GoalResult> evaluateGoals(std::span<const Goal> goals, const Results
 
 // --- forms of results ----------------------------------------------------------------------------------------------
 
-/// {"schema": "relief-bench", "version": 2, ...}: see json.cpp for the shape. Pictures are not in it.
+/// Writes results as JSON: {"schema": "relief-bench", "version": 2, ...}, see json.cpp for the shape. Pictures are not
+/// in it.
 std::string toJson(const Results& results);
-/// Throws Failure::input, naming `name`, for text of another shape or version.
+/// Reads what toJson() has written. Throws Failure::input, naming `name`, for text of another shape or version.
 Results parseResults(const std::string& text, const std::string& name);
-/// A line per value: suite, scene, method, axis, at, metric, unit, origin, number of samples, median, p5, p95.
+/// Writes results as CSV, one line per value: suite, scene, method, axis, at, metric, unit, origin, number of samples,
+/// median, p5, p95.
 std::string toCsv(const Results& results);
-/// Text for a terminal: a table per suite, scene and axis, then the goals.
+/// Writes results as text for a terminal: one table per suite, scene and axis, then the goals.
 std::string toTable(const Results& results, std::span<const Goal> goals = {});
-/// One HTML page that loads nothing else: goals, plots, tables, pictures, and the assumptions of the model of bytes.
+/// Makes one HTML page that loads nothing else: goals, plots, tables, pictures, and the assumptions of the model of
+/// bytes.
 std::string makeReport(const Results& results, std::span<const Goal> goals = {});
 
 } // namespace relief

@@ -40,7 +40,7 @@ struct SuiteContext {
     [[nodiscard]] int roundCount() const { return options.isQuick ? 3 : 5; }
 };
 
-/// Of the bounding box of the cage's points.
+/// Computes the diagonal of the bounding box of the cage's points, cage units.
 double computeDiagonal(const Cage& cage);
 
 // --- drawing.cpp: surfaces and meshes on the device, and how long frames of them take
@@ -65,11 +65,11 @@ struct SceneOnDevice {
     [[nodiscard]] RenderOptions renderOptions(int rate) const;
 };
 
-/// The same rate at all edges, heights read from the map itself without mip levels: geometry is compared as it is.
+/// Makes equal rates for all edges. Heights are read from level 0 of the map, so that geometry is compared as it is.
 EdgeRates makeUniformRates(const SurfaceModel& model, int rate);
-/// The triangles of a surface at a rate.
+/// Dices a surface at a rate into a mesh in host memory.
 DenseMesh makeDenseMesh(Device& device, const SurfaceModel& model, int rate);
-/// Such triangles as a model that needs no surface.
+/// Uploads such a mesh as a model of its own.
 MeshModel uploadDenseMesh(Device& device, const DenseMesh& mesh);
 
 /// A way to draw a scene, and the times of its frames.
@@ -97,5 +97,6 @@ void measureFrame(SuiteContext& context, const TestScene& scene);
 void measureScaling(SuiteContext& context, const TestScene& scene);
 void measureAnimate(SuiteContext& context, const TestScene& scene);
 void measureBandwidth(SuiteContext& context, const TestScene& scene);
+void measureDetail(SuiteContext& context, const TestScene& scene);
 
 } // namespace relief

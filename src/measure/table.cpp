@@ -18,7 +18,7 @@ std::string formatCell(const Value& value) {
     return fmt::format("{:.4g}", spread.median);
 }
 
-/// Columns as wide as their widest cell; all but the first are flush right.
+/// Lays lines out in columns as wide as their widest cell; all but the first are flush right.
 std::string alignColumns(const std::vector<std::vector<std::string>>& lines) {
     std::vector<std::size_t> widths;
     for (const auto& line : lines) {

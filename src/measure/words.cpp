@@ -56,6 +56,8 @@ constexpr MetricInfo kMetrics[] = {
     {Metric::deviceOpenTime, "opening the device", Unit::milliseconds, "Making the Vulkan device, a part of the whole process."},
     {Metric::warmFrameTime, "warm frame", Unit::milliseconds, "The frame of that process, in a process that has compiled its shaders before."},
     {Metric::coldRunPerFrame, "cold process less tables, per warm frame", Unit::ratio, "The whole process with cold shaders, less OpenSubdiv's tables, divided by the warm frame."},
+    {Metric::errorPerFinerError, "error / that of displacement with segments a quarter as long", Unit::ratio, "Picture RMSE of this row divided by that of displacement alone at four times the rate."},
+    {Metric::timePerFinerTime, "time / that of displacement with segments a quarter as long", Unit::ratio, "Frame time of this row divided by that of displacement alone at four times the rate."},
 };
 // clang-format on
 
@@ -93,11 +95,16 @@ constexpr Word<Method> kMethods[] = {
     {Method::densePosedOnHost, "dense mesh, posed on the host"},
     {Method::preparation, "preparation"},
     {Method::reliefRender, "relief render"},
+    {Method::displacement, "displacement"},
+    {Method::displacementAndBump, "displacement and bump"},
+    {Method::bump, "bump"},
+    {Method::undisplaced, "undisplaced"},
 };
 
 constexpr Word<Suite> kSuites[] = {
     {Suite::bandwidth, "bandwidth"}, {Suite::frame, "frame"},     {Suite::animate, "animate"},
     {Suite::memory, "memory"},       {Suite::scaling, "scaling"}, {Suite::startup, "startup"},
+    {Suite::detail, "detail"},
 };
 
 constexpr Word<Axis> kAxes[] = {
@@ -106,6 +113,7 @@ constexpr Word<Axis> kAxes[] = {
     {Axis::triangles, "triangles"},
     {Axis::pixelTriangles, "triangles of one pixel"},
     {Axis::faces, "cage faces"},
+    {Axis::segmentPixels, "pixels per segment"},
 };
 
 constexpr Word<Origin> kOrigins[] = {{Origin::measured, "measured"}, {Origin::computed, "computed"}};
@@ -117,11 +125,11 @@ constexpr bool isComplete(const Row (&table)[kCount], Enum Row::*value, Enum las
         if (std::size_t(table[i].*value) != i) return false;
     return std::size_t(last) + 1 == kCount;
 }
-static_assert(isComplete(kMetrics, &MetricInfo::metric, Metric::coldRunPerFrame));
+static_assert(isComplete(kMetrics, &MetricInfo::metric, Metric::timePerFinerTime));
 static_assert(isComplete(kUnits, &Word<Unit>::value, Unit::decibels));
-static_assert(isComplete(kMethods, &Word<Method>::value, Method::reliefRender));
-static_assert(isComplete(kSuites, &Word<Suite>::value, Suite::startup));
-static_assert(isComplete(kAxes, &Word<Axis>::value, Axis::faces));
+static_assert(isComplete(kMethods, &Word<Method>::value, Method::undisplaced));
+static_assert(isComplete(kSuites, &Word<Suite>::value, Suite::detail));
+static_assert(isComplete(kAxes, &Word<Axis>::value, Axis::segmentPixels));
 static_assert(isComplete(kOrigins, &Word<Origin>::value, Origin::computed));
 
 template <typename Enum, std::size_t kCount>

@@ -53,7 +53,7 @@ void checkMesh(const DenseMesh& mesh, const std::string& path) {
     if (mesh.normals.size() != count || (!mesh.texCoords.empty() && mesh.texCoords.size() != count) ||
         mesh.indices.size() % 3 != 0)
         fail(Failure::input,
-             "{}: not written: {} positions, {} normals, {} texture coordinates, {} indices; expected one of each a "
+             "{}: not written: {} positions, {} normals, {} texture coordinates, {} indices; expected one of each per "
              "vertex and three indices per triangle",
              path, count, mesh.normals.size(), mesh.texCoords.size(), mesh.indices.size());
     for (std::size_t i = 0; i < mesh.indices.size(); ++i)

@@ -1,5 +1,5 @@
-// glTF 2.0, binary: a header, a chunk of JSON that names the parts of a chunk of bytes. Not through tinygltf, which
-// wants all vertices as one byte array and copies that once more before it writes: three times the mesh in memory.
+// glTF 2.0, binary: a header, a chunk of JSON that names the parts of a chunk of bytes. Written without tinygltf, which
+// needs all vertices as one byte array and copies that once more before it writes: three times the mesh in memory.
 #include <nlohmann/json.hpp>
 
 #include "mesh/write.h"
@@ -8,14 +8,14 @@ namespace relief {
 
 namespace {
 
-using OrderedJson = nlohmann::ordered_json; // readers expect "asset" first, people too
+using OrderedJson = nlohmann::ordered_json; // "asset" comes first, as readers and people expect
 
 // Numbers of the specification: component types and buffer targets are OpenGL's.
 constexpr int kFloat = 5126, kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr std::uint64_t kMagic = 0x46546C67, kVersion = 2, kJsonChunk = 0x4E4F534A, kBinChunk = 0x004E4942;
 
-/// Unit as nearly as floats can be: the validator allows 5e-4. Up where there is no direction.
+/// Normalises a normal as well as floats can (the validator allows 5e-4); (0,1,0) where it has no direction.
 vec3 unitNormal(const vec3& normal) {
     const dvec3 n(normal);
     return glm::dot(n, n) > 0 ? vec3(glm::normalize(n)) : vec3(0, 1, 0);
@@ -82,7 +82,7 @@ std::string describe(const DenseMesh& mesh, const Arrays& arrays) {
     return text;
 }
 
-/// Everything in front of the arrays. Sizes fit 32 bits: checkMeshSize has seen to it.
+/// Everything in front of the arrays. Sizes fit 32 bits, as checkMeshSize has checked.
 void putHeaders(MeshFile& file, const std::string& json, const Arrays& arrays) {
     const std::uint64_t length = 12 + 8 + json.size() + 8 + arrays.byteCount;
     for (const std::uint64_t number : {kMagic, kVersion, length}) file.putValue(std::uint32_t(number));

@@ -10,7 +10,7 @@ namespace relief {
 
 namespace {
 
-/// One line of the file at a time; fmt would take twice as long over the numbers.
+/// Builds one line of the file at a time; fmt would take twice as long to write the numbers.
 class ObjLines {
 public:
     explicit ObjLines(MeshFile& file) : file_(file) {}
@@ -46,45 +46,50 @@ void putValues(ObjLines& lines, std::string_view keyword, std::size_t count, con
     });
 }
 
-/// It has two corners at one place.
-bool isDegenerate(const DenseMesh& mesh, const UniquePoints& places, std::size_t triangle) {
-    const auto place = [&](std::size_t k) { return places.indices[mesh.indices[3 * triangle + k]]; };
-    return place(0) == place(1) || place(1) == place(2) || place(2) == place(0);
+/// True for a triangle with two corners at the same position.
+bool isDegenerate(const DenseMesh& mesh, const UniquePoints& positions, std::size_t triangle) {
+    const auto positionOf = [&](std::size_t k) { return positions.indices[mesh.indices[3 * triangle + k]]; };
+    return positionOf(0) == positionOf(1) || positionOf(1) == positionOf(2) || positionOf(2) == positionOf(0);
 }
 
-/// In the world: doubles, where floats could not separate vertices.
-void putPositions(ObjLines& lines, const DenseMesh& mesh, const UniquePoints& places, Progress& progress) {
-    const auto position = [&](std::size_t i) { return mesh.positions[places.firsts[i]]; };
+/// Writes positions in the world: as doubles where floats could not separate vertices.
+void putPositions(ObjLines& lines, const DenseMesh& mesh, const UniquePoints& positions, Progress& progress) {
+    const auto position = [&](std::size_t i) { return mesh.positions[positions.firsts[i]]; };
     const auto inWorld = [&](std::size_t i) { return mesh.coordinates.toWorld(position(i)); };
     if (mesh.coordinates.isIdentity())
-        putValues(lines, "v", places.count(), position, progress);
+        putValues(lines, "v", positions.count(), position, progress);
     else
-        putValues(lines, "v", places.count(), inWorld, progress);
+        putValues(lines, "v", positions.count(), inWorld, progress);
 }
 
 } // namespace
 
 void writeDenseObj(MeshFile& file, const DenseMesh& mesh, ShowProgress show) {
     const std::size_t triangleCount = mesh.indices.size() / 3;
-    const UniquePoints places = findUniquePoints(mesh.positions);
+    const UniquePoints positions = findUniquePoints(mesh.positions);
+    // Readers refuse degenerate faces: they are omitted, but a file without any face is no mesh.
     std::size_t soundCount = 0;
-    for (std::size_t i = 0; i < triangleCount; ++i) soundCount += isDegenerate(mesh, places, i) ? 0 : 1;
+    for (std::size_t i = 0; i < triangleCount; ++i) soundCount += isDegenerate(mesh, positions, i) ? 0 : 1;
     if (soundCount == 0)
         fail(Failure::input, "{}: not written: every triangle of the mesh names a position twice", file.path());
-    Progress progress("writing", places.count() + mesh.texCoords.size() + mesh.normals.size() + triangleCount, show);
+
+    // Positions once each; texture coordinates and normals as vertices have them.
+    Progress progress("writing", positions.count() + mesh.texCoords.size() + mesh.normals.size() + triangleCount, show);
     ObjLines lines(file);
-    putPositions(lines, mesh, places, progress);
+    putPositions(lines, mesh, positions, progress);
     putValues(
         lines, "vt", mesh.texCoords.size(), [&](std::size_t i) { return mesh.texCoords[i]; }, progress);
     putValues(
         lines, "vn", mesh.normals.size(), [&](std::size_t i) { return mesh.normals[i]; }, progress);
+
+    // Corners name all three by numbers from 1.
     putEach(triangleCount, progress, [&](std::size_t triangle) {
-        if (isDegenerate(mesh, places, triangle)) return;
+        if (isDegenerate(mesh, positions, triangle)) return;
         lines.word("f");
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t index = mesh.indices[3 * triangle + k] + 1;
             lines.word(" ");
-            lines.number(places.indices[index - 1] + 1);
+            lines.number(positions.indices[index - 1] + 1);
             lines.word("/");
             if (!mesh.texCoords.empty()) lines.number(index);
             lines.word("/");

@@ -1,4 +1,4 @@
-// Binary PLY: a header of lines, then every vertex with all it has, then the triangles.
+// Binary PLY: a header of lines, then the vertices with all their attributes, then the triangles.
 #include <bit>
 
 #include "mesh/write.h"

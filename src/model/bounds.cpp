@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kBlock = 8; ///< texels per side of the smallest squares
 
-/// Where control points of one patch lie, in as many dimensions as needed.
+/// A box around the control points of one patch, in two or three dimensions.
 template <typename V>
 struct Box {
     V lower{1e30f}, upper{-1e30f};

@@ -91,14 +91,14 @@ struct FaceNormals {
     bool hasTextureSlopes = true;                ///< else these are not known, and no displaced normal is bounded
 };
 
-/// For faces of a single bicubic patch without boundary: their tangents are convex combinations of differences of
-/// control points. Other faces are not bounded.
+/// Bounds the derivatives of faces that are one bicubic patch without boundary: their tangents are convex combinations
+/// of differences of control points. Other faces are not bounded.
 std::vector<FaceNormals> faceNormals(const Surface& surface, std::span<const vec3> points);
 
 /// Bounds of the normals that displacement by such heights leaves.
 NormalBounds displacedNormals(const FaceNormals& face, const Range& heights);
 
-/// For all faces, of lookups in level 0; those of the limit surface where the pyramid is empty.
+/// Bounds the displaced normals of all faces for lookups in level 0; the limit normals where the pyramid is empty.
 std::vector<NormalBounds> normalBounds(std::span<const FaceNormals> faces, std::span<const TexBox> boxes,
                                        const HeightPyramid& pyramid);
 

@@ -136,6 +136,21 @@ void SurfaceModel::setPoints(PointSets other) {
     normalBounds.clear();
 }
 
+std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents) {
+    RELIEF_CHECK(tangents.ps.size() == mesh.positions.size());
+    std::vector<vec4> texels;
+    texels.reserve(2 * tangents.ps.size());
+    for (std::size_t i = 0; i < tangents.ps.size(); ++i) {
+        // grad s = (p_t x n) / (n . (p_s x p_t)), grad t = (n x p_s) / (n . (p_s x p_t))
+        const vec3 n = glm::normalize(mesh.normals[i]);
+        const vec3 &ps = tangents.ps[i], &pt = tangents.pt[i];
+        const float area = glm::dot(n, glm::cross(ps, pt)), factor = area != 0 ? 1 / area : 0;
+        texels.emplace_back(factor * glm::cross(pt, n), 0.0f);
+        texels.emplace_back(factor * glm::cross(n, ps), 0.0f);
+    }
+    return texels;
+}
+
 namespace {
 
 /// What bends the normals of a mesh, and the tangents that it needs for that.
@@ -143,16 +158,12 @@ void uploadDetail(Device& device, const MeshModelDesc& desc, MeshModel& model) {
     if (desc.bump != nullptr) model.pictures.slopes = uploadSlopes(device, *desc.bump);
     if (desc.normalMap != nullptr) model.pictures.normalMap = uploadNormals(device, *desc.normalMap);
     std::vector<vec4> texels;
-    if (model.pictures.needTangents()) {
-        const std::size_t count = desc.mesh->positions.size();
-        RELIEF_CHECK(desc.tangentsS.size() == count);
-        RELIEF_CHECK(desc.tangentsT.size() == count);
-        for (std::size_t i = 0; i < count; ++i) {
-            texels.emplace_back(desc.tangentsS[i], 0.0f);
-            texels.emplace_back(desc.tangentsT[i], 0.0f);
-        }
+    if (model.pictures.needTexGradients()) {
+        RELIEF_CHECK(desc.tangents != nullptr);
+        texels = toTexGradients(*desc.mesh, *desc.tangents);
     }
-    model.tangents = uploadTexels(device, {.name = "mesh tangents"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
+    model.texGradients =
+        uploadTexels(device, {.name = "mesh texture gradients"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
 }
 
 } // namespace

@@ -64,7 +64,7 @@ struct ModelPictures {
     std::optional<GpuNormalMap> normalMap;
 
     /// Whether normals are bent or turned in directions along the surface, which vertices have to carry.
-    [[nodiscard]] bool needTangents() const {
+    [[nodiscard]] bool needTexGradients() const {
         return slopes || (normalMap && normalMap->space == NormalSpace::tangent);
     }
     [[nodiscard]] bool needTexCoords() const { return slopes || normalMap; }
@@ -154,25 +154,28 @@ private:
 
 struct MeshModelDesc {
     const DenseMesh* mesh = nullptr;
-    const HeightMap* bump = nullptr;            ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
-    const NormalMap* normalMap = nullptr;       ///< ... unless the map is of object space
-    std::span<const vec3> tangentsS, tangentsT; ///< per vertex: derivatives of positions by s and by t
-    const Image* albedo = nullptr;              ///< as SurfaceModelDesc::albedo
+    const HeightMap* bump = nullptr;      ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
+    const NormalMap* normalMap = nullptr; ///< ... unless the map is of object space
+    const Tangents* tangents = nullptr;   ///< of the mesh
+    const Image* albedo = nullptr;        ///< as SurfaceModelDesc::albedo
 };
 
 /// A triangle mesh as it is: what displaced surfaces are compared with.
 struct MeshModel {
     MeshModel(Device& device, const MeshModelDesc& desc);
 
-    TexelBuffer vertices;  ///< two texels per vertex: position with height, normal
-    TexelBuffer texCoords; ///< per vertex, or empty
-    TexelBuffer tangents;  ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
-    Buffer indices;        ///< three 32-bit indices per triangle
+    TexelBuffer vertices;     ///< two texels per vertex: position with height, normal
+    TexelBuffer texCoords;    ///< per vertex, or empty
+    TexelBuffer texGradients; ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
+    Buffer indices;           ///< three 32-bit indices per triangle
     ModelPictures pictures;
     std::uint32_t vertexCount = 0, triangleCount = 0;
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
 };
+
+/// What MeshModel::texGradients holds: the gradients of s and of t along the mesh in turn, and no slopes.
+std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents);
 
 // --- either -------------------------------------------------------------------------------------------------------
 

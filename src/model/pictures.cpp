@@ -32,12 +32,14 @@ struct AlbedoTables {
 
 AlbedoMips albedoMips(const Image& image) {
     static const AlbedoTables tables;
+    // Level 0: the codes of the picture, opaque.
     AlbedoMips mips;
     auto width = std::size_t(image.width), height = std::size_t(image.height);
     mips.bytes.reserve(width * height * 4 * 4 / 3 + 64);
     for (std::size_t i = 0; i < width * height; ++i)
         for (std::size_t c = 0; c < 4; ++c)
             mips.bytes.push_back(c < 3 ? byteOf(image.texels[i * std::size_t(image.channels) + c]) : 255);
+    // Further levels: the mean of four texels of the level before, in linear light.
     std::size_t from = 0;
     for (mips.levels = 1; width > 1 || height > 1; ++mips.levels) {
         const std::size_t w = std::max<std::size_t>(1, width / 2), h = std::max<std::size_t>(1, height / 2);

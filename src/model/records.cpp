@@ -136,6 +136,8 @@ SurfaceRecords recordsOf(const Surface& surface) {
         fail(Failure::input,
              "a surface of {} faces and {} corners is more than {} faces, {} corners or {} faces per edge",
              surface.faces.size(), surface.corners.size(), kMostFaces, kMostCorners, kMostEdgeIncidences);
+
+    // One table of words: the records of each kind begin at a texel that shaders get as an input.
     SurfaceRecords records;
     std::vector<std::uint32_t>& words = records.words;
     const auto texel = [&] { return std::uint32_t(words.size() / 4); };

@@ -12,19 +12,31 @@ struct BindingRow {
 
 /// The kinds of set 0's bindings (shared/bindings.h).
 constexpr BindingRow kBindings[] = {
-    {kBindInputs, BindingKind::inputs},        {kBindHeight, BindingKind::words},
-    {kBindAlbedo, BindingKind::image},         {kBindEnvironment, BindingKind::image},
-    {kBindShadow, BindingKind::image},         {kBindRecords, BindingKind::words},
-    {kBindTree, BindingKind::words},           {kBindPoints, BindingKind::floats},
-    {kBindTexPoints, BindingKind::floats},     {kBindEdgeRates, BindingKind::floats},
-    {kBindDrawFaces, BindingKind::words},      {kBindMesh, BindingKind::floats},
-    {kBindMeshTexCoords, BindingKind::floats}, {kBindDiceTable, BindingKind::words},
-    {kBindDiceTiles, BindingKind::words},      {kBindDiceFirsts, BindingKind::words},
-    {kBindLevels, BindingKind::floats},        {kBindEdgeHeights, BindingKind::floats},
-    {kBindDepths, BindingKind::image},         {kBindNormals, BindingKind::image},
-    {kBindColors, BindingKind::image},         {kBindInstances, BindingKind::integerImage},
-    {kBindSlopes, BindingKind::image},         {kBindNormalMap, BindingKind::image},
-    {kBindMeshTangents, BindingKind::floats},
+    {kBindInputs, BindingKind::inputs},
+    {kBindHeight, BindingKind::words},
+    {kBindAlbedo, BindingKind::image},
+    {kBindEnvironment, BindingKind::image},
+    {kBindShadow, BindingKind::image},
+    {kBindRecords, BindingKind::words},
+    {kBindTree, BindingKind::words},
+    {kBindPoints, BindingKind::floats},
+    {kBindTexPoints, BindingKind::floats},
+    {kBindEdgeRates, BindingKind::floats},
+    {kBindDrawFaces, BindingKind::words},
+    {kBindMesh, BindingKind::floats},
+    {kBindMeshTexCoords, BindingKind::floats},
+    {kBindDiceTable, BindingKind::words},
+    {kBindDiceTiles, BindingKind::words},
+    {kBindDiceFirsts, BindingKind::words},
+    {kBindLevels, BindingKind::floats},
+    {kBindEdgeHeights, BindingKind::floats},
+    {kBindDepths, BindingKind::image},
+    {kBindNormals, BindingKind::image},
+    {kBindColors, BindingKind::image},
+    {kBindInstances, BindingKind::integerImage},
+    {kBindSlopes, BindingKind::image},
+    {kBindNormalMap, BindingKind::image},
+    {kBindMeshTexGradients, BindingKind::floats},
 };
 static_assert(std::size(kBindings) == kBindCount);
 
@@ -77,7 +89,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdEntries] = entryCount;
     values[kIdHeightFunction] = heightFunction;
     values[kIdReadsRest] = readsRest;
-    values[kIdHasTangents] = hasTangents;
+    values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
     return values;
@@ -187,7 +199,7 @@ void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings
     bindings[kBindMesh] = model.vertices.binding();
     bindings[kBindMeshTexCoords] = model.texCoords.binding();
     describePictures(model.pictures, inputs, bindings);
-    bindings[kBindMeshTangents] = model.tangents.binding();
+    bindings[kBindMeshTexGradients] = model.texGradients.binding();
 }
 
 } // namespace relief

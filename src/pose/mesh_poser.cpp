@@ -32,6 +32,7 @@ struct MeshPoser::Parts {
 
 MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, const Rig& rig)
     : parts_(new Parts{.device = device, .model = model}) {
+    // Tables that no pose changes.
     Parts& p = *parts_;
     const std::vector<vec4> vertices = verticesOf(mesh.positions, mesh.normals);
     const auto texels = [&](const char* name, VkFormat format, auto span) {
@@ -40,15 +41,19 @@ MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, co
     p.rest = texels("mesh at rest", VK_FORMAT_R32G32B32A32_SFLOAT, std::span(vertices));
     p.joints = texels("mesh joints", VK_FORMAT_R32_UINT, std::span(rig.joints));
     p.influences = texels("mesh joint weights", VK_FORMAT_R32_SFLOAT, std::span(rig.weights));
+
+    // What a pose uploads: the joints, or vertices that the host has posed.
     p.upload = makeTexels(device,
                           {.name = "mesh pose",
                            .bytes = std::uint64_t(kFloatsPerJoint) * rig.jointCount * sizeof(float),
                            .memory = MemoryUse::upload},
                           VK_FORMAT_R32_SFLOAT);
     p.staging = makeBuffer(device, {.name = "posed mesh",
-                                    .bytes = vertices.size() * sizeof(vec4),
+                                    .bytes = vertices.size() * sizeof(vec4) + model.texGradients.buffer.bytes,
                                     .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                     .memory = MemoryUse::upload});
+
+    // The pass that moves vertices into the model's own buffer.
     p.pipeline = makePosePipeline(device, "pose_mesh.comp");
     PoseBindings bindings;
     for (Binding& binding : bindings) binding = p.rest.binding(); // every one is bound, read or not
@@ -80,14 +85,24 @@ void MeshPoser::pose(const Pose& pose) {
     });
 }
 
-std::uint64_t MeshPoser::upload(std::span<const vec3> positions, std::span<const vec3> normals) {
+std::uint64_t MeshPoser::upload(const DenseMesh& posed, const Tangents* tangents) {
     Parts& p = *parts_;
-    const std::vector<vec4> vertices = verticesOf(positions, normals);
-    const std::uint64_t bytes = vertices.size() * sizeof(vec4);
-    std::memcpy(p.staging.mapped, vertices.data(), bytes);
+    std::vector<vec4> texels = verticesOf(posed.positions, posed.normals);
+    const std::uint64_t vertexBytes = texels.size() * sizeof(vec4);
+    if (tangents != nullptr) {
+        const std::vector<vec4> more = toTexGradients(posed, *tangents);
+        texels.insert(texels.end(), more.begin(), more.end());
+    }
+    const std::uint64_t bytes = texels.size() * sizeof(vec4);
+    RELIEF_CHECK(bytes <= p.staging.bytes);
+    std::memcpy(p.staging.mapped, texels.data(), bytes);
     p.device.submitAndWait([&](VkCommandBuffer commands) {
-        const VkBufferCopy region{0, 0, bytes};
-        vkCmdCopyBuffer(commands, p.staging.handle.get(), p.model.vertices.buffer.handle.get(), 1, &region);
+        const auto copy = [&](std::uint64_t from, std::uint64_t count, const TexelBuffer& to) {
+            const VkBufferCopy region{from, 0, count};
+            if (count > 0) vkCmdCopyBuffer(commands, p.staging.handle.get(), to.buffer.handle.get(), 1, &region);
+        };
+        copy(0, vertexBytes, p.model.vertices);
+        copy(vertexBytes, bytes - vertexBytes, p.model.texGradients);
         barrier(commands);
     });
     return bytes;

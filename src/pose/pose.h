@@ -96,8 +96,8 @@ public:
 
     /// Skins positions and normals on the device.
     void pose(const Pose& pose);
-    /// Uploads positions and normals that the host has posed; returns the bytes uploaded.
-    std::uint64_t upload(std::span<const vec3> positions, std::span<const vec3> normals);
+    /// Uploads a mesh that the host has posed, and its tangents where the model has any; returns the bytes uploaded.
+    std::uint64_t upload(const DenseMesh& posed, const Tangents* tangents = nullptr);
 
 private:
     struct Parts;

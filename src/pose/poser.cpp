@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
+#include "base/clock.h"
 #include "pose/stages.h"
 #include "shared/displacement.h"
 #include "shared/pose.h"
@@ -65,6 +65,8 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
     if (desc.rig != nullptr) rig = *desc.rig;
     const Surface& surface = *desc.surface;
     push.pointCount = surface.controlPointCount;
+
+    // Sets of points in one table: this pose, the one before where motion is asked for, rest where heights stretch.
     const auto setSize = std::uint32_t(surface.controlPointCount + surface.stencils.rowCount());
     const bool stretches = desc.heightSpace == HeightSpace::stretch, keepsRest = stretches || model.function != nullptr;
     const std::uint32_t setCount = 1 + (desc.keepsBefore ? 1 : 0) + (keepsRest ? 1 : 0);
@@ -81,11 +83,15 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
     if (keepsRest) sets.rest = (setCount - 1) * setSize;
     sets.stretches = stretches;
     push.target = sets.table.buffer.address;
+
+    // What no pose changes.
     const StencilBlocks blocks = stencilBlocks(surface.stencils);
     uploadStencils(blocks);
     uploadRig();
     makePasses(blocks);
     bindAll(sets.table);
+
+    // The model takes the table over; its rest points are the only ones that are never posed again.
     const std::optional<std::uint32_t> firstRest = sets.rest;
     if (stretches) mostStretch = float(formulas::kMostStretch);
     model.setPoints(std::move(sets));
@@ -220,17 +226,16 @@ Poser::~Poser() = default;
 
 void Poser::pose(const Pose& now, const Pose* before) {
     Parts& parts = *parts_;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = secondsNow();
     const Pose* poses[] = {&now, before};
     for (std::size_t i = 0; i < parts.setFirsts.size() && poses[i] != nullptr; ++i) {
         parts.checkPose(*poses[i]);
         parts.evaluate(parts.uploadOf(*poses[i]), parts.setFirsts[i], parts.rig && poses[i]->positions.empty());
     }
-    parts.stats.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    parts.stats.milliseconds = 1e3 * (secondsNow() - start);
 
     std::vector<float> heightBounds = parts.model.faceHeightBounds;
-    for (float& reach : heightBounds) reach *= parts.mostStretch;
+    for (float& bound : heightBounds) bound *= parts.mostStretch;
     std::vector<Bounds> boxes =
         parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
     parts.bounds = {};

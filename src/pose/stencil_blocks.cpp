@@ -65,11 +65,11 @@ std::vector<Draft> drafts(const Stencils& stencils, std::uint32_t firstRow, std:
     return all;
 }
 
-/// `placeOf` is room for the index of each of the draft's points within the block.
-void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uint32_t>& placeOf,
+/// Appends a block. `indexInBlock`: scratch memory, per point its index within the block.
+void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uint32_t>& indexInBlock,
               StencilBlocks& blocks) {
     const std::size_t first = blocks.entries.size();
-    for (std::size_t i = 0; i < draft.points.size(); ++i) placeOf[draft.points[i]] = std::uint32_t(i);
+    for (std::size_t i = 0; i < draft.points.size(); ++i) indexInBlock[draft.points[i]] = std::uint32_t(i);
     blocks.entries.insert(blocks.entries.end(), draft.points.begin(), draft.points.end());
     blocks.entries.resize(first + roundedUp(draft.points.size()), draft.points.front());
     blocks.weights.resize(blocks.entries.size() * kBlockRows, 0.0f);
@@ -78,7 +78,7 @@ void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uin
         if (lane >= draft.rows.size()) continue;
         const std::uint32_t row = draft.rows[lane];
         for (std::uint32_t k = stencils.offsets[row]; k < stencils.offsets[row + 1]; ++k) {
-            const std::size_t entry = first + placeOf[stencils.indices[k]], vector = entry / 4 * kBlockRows + lane;
+            const std::size_t entry = first + indexInBlock[stencils.indices[k]], vector = entry / 4 * kBlockRows + lane;
             blocks.weights[4 * vector + entry % 4] = stencils.weights[k];
         }
     }
@@ -90,9 +90,10 @@ void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uin
 StencilBlocks stencilBlocks(const Stencils& stencils) {
     StencilBlocks blocks;
     blocks.firsts.push_back(0);
-    std::vector<std::uint32_t> placeOf;
-    placeOf.resize(1 + (stencils.indices.empty() ? 0 : *std::ranges::max_element(stencils.indices)));
-    for (const Draft& draft : drafts(stencils, 0, stencils.sharedRowCount)) addBlock(stencils, draft, placeOf, blocks);
+    std::vector<std::uint32_t> indexInBlock;
+    indexInBlock.resize(1 + (stencils.indices.empty() ? 0 : *std::ranges::max_element(stencils.indices)));
+    for (const Draft& draft : drafts(stencils, 0, stencils.sharedRowCount))
+        addBlock(stencils, draft, indexInBlock, blocks);
     blocks.sharedBlockCount = std::uint32_t(blocks.blockCount());
 
     std::vector<Draft> all = drafts(stencils, stencils.sharedRowCount, std::uint32_t(stencils.rowCount()));
@@ -102,7 +103,7 @@ StencilBlocks stencilBlocks(const Stencils& stencils) {
         if (blocks.classes.empty() || blocks.classes.back().entryCount != entryCount)
             blocks.classes.push_back({entryCount, std::uint32_t(blocks.blockCount()), 0});
         ++blocks.classes.back().blockCount;
-        addBlock(stencils, draft, placeOf, blocks);
+        addBlock(stencils, draft, indexInBlock, blocks);
     }
     return blocks;
 }

@@ -7,12 +7,6 @@ namespace {
 
 double aspectOf(const ivec2& size) { return double(size.x) / size.y; }
 
-Bounds boundsOf(std::span<const dvec3> points) {
-    Bounds bounds;
-    for (const dvec3& p : points) bounds.add(p);
-    return bounds;
-}
-
 } // namespace
 
 CameraOptions toLocal(const Coordinates& coordinates, const CameraOptions& world) {
@@ -30,7 +24,7 @@ CameraOptions holdAllPoints(const CameraOptions& options, std::span<const dvec3>
     constexpr int kSides = 24;
     // A turn goes around one point. From one side, the target is wherever it centres the picture.
     CameraOptions side = options;
-    if (isTurn && !side.lookAt) side.lookAt = boundsOf(points).center();
+    if (isTurn && !side.lookAt) side.lookAt = computeBounds(points).center();
     // The distance that suffices from the side that needs the largest one.
     double farthest = 0;
     Camera camera;
@@ -71,9 +65,10 @@ std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene&
     return uploadEnvironment(device, *loaded.environment);
 }
 
-Material makeMaterial(const MaterialDesc& desc) {
+Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor) {
     Material material;
     if (!desc.albedo.empty()) material.albedo = vec3(1);
+    if (textureColor) material.albedo = *textureColor;
     if (desc.color) material.albedo = *desc.color;
     material.roughness = desc.roughness;
     return material;

@@ -19,9 +19,12 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
 
 Model makeModel(Device& device, const LoadedObject& object) {
     if (!object.dense) return makeSurfaceModel(device, object);
+    std::optional<Tangents> tangents;
+    if (object.needsTangents) tangents = computeTangents(*object.dense);
     MeshModelDesc desc{.mesh = &*object.dense,
                        .bump = object.bumpMap(),
                        .normalMap = object.normalMap ? &*object.normalMap : nullptr,
+                       .tangents = tangents ? &*tangents : nullptr,
                        .albedo = object.albedo ? &*object.albedo : nullptr};
     return MeshModel(device, desc);
 }

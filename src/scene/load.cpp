@@ -60,6 +60,12 @@ void checkMeshMaps(const LoadedObject& object, const ObjectDesc& desc) {
     if (!map.empty()) fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
 }
 
+void splitForTangents(LoadedObject& object) {
+    const bool isTurned = object.normalMap && object.normalMap->space == NormalSpace::tangent;
+    object.needsTangents = isTurned || object.bumpMap() != nullptr;
+    if (object.dense && object.needsTangents) object.dense = splitMirrored(std::move(*object.dense));
+}
+
 } // namespace
 
 std::vector<std::string> listFiles(const ObjectDesc& object) {
@@ -136,7 +142,9 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
         if (object.height.path.empty() && object.material.albedo.empty())
             warnOutsideMap(object, scene.object.cage, normals, warn);
     }
+    takeGltfTextures(scene.object, object, warn);
     checkMeshMaps(scene.object, object);
+    splitForTangents(scene.object);
     if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
     return scene;
 }

@@ -19,6 +19,10 @@ Image loadAlbedo(const std::string& path, const Warn& warn);
 /// Throws Failure::usage for one of object space on a cage that moves, and as loadNormalMap does.
 NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn);
 
+/// Takes the base color and the normal map that the material of a glTF file names, where the command line names none.
+/// An object has one of each: materials that do not share theirs are warned of, and so is a picture that cannot be read.
+void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const Warn& warn);
+
 /// Warns where the cage's texture coordinates leave the unit square and nothing says how `map` continues there.
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn);
 
@@ -29,7 +33,7 @@ void fitUnitToHeights(LoadedObject& object, const Warn& warn);
 /// Joins the vertices of a cage and of what moves it. Throws Failure::usage when no face is left.
 void weldObject(LoadedObject& object, const Distance& distance);
 
-/// Warns of a surface that is open between vertices at one place.
+/// Warns of a surface that is open between vertices at the same position.
 void warnOfCoincidentVertices(const Cage& cage, const std::string& path, const Warn& warn);
 
 /// Warns of subdivision tags on polygons that are drawn themselves without being asked for.

@@ -23,15 +23,16 @@ void poseCage(LoadedObject& object, const MotionDesc& desc) {
     recenter(object.cage);
 }
 
-MovingPolygons::MovingPolygons(Cage rest, const Animation& animation)
-    : rest_(std::move(rest)), animation_(&animation) {}
+MovingPolygons::MovingPolygons(Cage rest, const Animation& animation, bool hasTangents)
+    : rest_(std::move(rest)), animation_(&animation), hasTangents_(hasTangents) {}
 
 DenseMesh MovingPolygons::makeMesh(double seconds) const {
     Cage posed = rest_;
     posed.positions = posedPositions(animation_->rig(), animation_->pose(seconds));
     posed.coordinates = animation_->coordinates();
     turnNormals(posed, rest_.positions);
-    return denseMesh(posed);
+    DenseMesh mesh = denseMesh(posed);
+    return hasTangents_ ? splitMirrored(std::move(mesh)) : mesh;
 }
 
 } // namespace relief

@@ -3,13 +3,7 @@
 namespace relief {
 namespace {
 
-constexpr int kCoarseIsolation = 2; ///< enough for framing
-
 std::vector<dvec3> positionsOf(const std::vector<vec3>& positions) { return {positions.begin(), positions.end()}; }
-
-ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme) {
-    return {cage, {.scheme = scheme, .isolation = kCoarseIsolation}};
-}
 
 /// Of heights by a function, which no map tells.
 double boundOf(const LoadedObject& object) { return object.function ? object.function->bound : 0; }

@@ -106,7 +106,9 @@ struct LoadedObject {
     std::optional<FunctionHeights> function; ///< instead of `height`; measureFunction() fills in its bounds
     double time = 0;                         ///< seconds, of the pose
     std::optional<Image> albedo;
+    std::optional<vec3> textureColor; ///< linear, multiplies an albedo that the cage's own file names
     std::optional<NormalMap> normalMap;
+    bool needsTangents = false; ///< normals are bent or turned along texture coordinates, by heights or a normal map
     double loadSeconds = 0, surfaceSeconds = 0; ///< what reading files and building the surface took
 
     /// The heights that move the surface, or null.
@@ -121,7 +123,7 @@ struct LoadedObject {
     [[nodiscard]] const HeightMap* bumpMap() const {
         return height && (detail == Detail::bump || detail == Detail::both) ? &*height : nullptr;
     }
-    /// Of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
+    /// Coordinates of what is drawn: those of the cage in its pose, or of all poses where it is loaded at rest.
     [[nodiscard]] const Coordinates& coordinates() const;
 };
 
@@ -144,8 +146,8 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
 /// Joins boundary vertices of a cage that nothing moves. Throws Failure::usage when no face is left.
 Cage weldCage(Cage cage, const std::optional<Distance>& distance);
 
-/// For a cage some of whose faces lack texture coordinates: throws Failure::input when one of `maps`, which need them,
-/// is not empty, else warns.
+/// Checks a cage some of whose faces lack texture coordinates. Throws Failure::input when one of `maps`, which need
+/// them, is not empty, else warns.
 void checkTexCoords(const Cage& cage, const std::vector<std::string>& maps, const Warn& warn);
 
 // --- motion -------------------------------------------------------------------------------------------------------
@@ -156,14 +158,15 @@ std::unique_ptr<Animation> loadAnimation(const MotionDesc& desc, const Cage& cag
 /// Polygons that are drawn themselves and move: posed on the host, because their normals are.
 class MovingPolygons {
 public:
-    /// The animation has to outlive it.
-    MovingPolygons(Cage rest, const Animation& animation);
+    /// The animation has to outlive it. `hasTangents`: meshes are split as Tangents need it.
+    MovingPolygons(Cage rest, const Animation& animation, bool hasTangents);
     /// The mesh at a time. Vertices and triangles have the same order at all times.
     [[nodiscard]] DenseMesh makeMesh(double seconds) const;
 
 private:
     Cage rest_;
     const Animation* animation_;
+    bool hasTangents_;
 };
 
 // --- on the device ------------------------------------------------------------------------------------------------
@@ -205,8 +208,8 @@ CameraOptions toLocal(const Coordinates& coordinates, const CameraOptions& world
 /// The camera of a scene; `points` outline the object, in its coordinates as the camera is then.
 Camera makeCamera(const SceneDesc& scene, const Coordinates& coordinates, std::span<const dvec3> points);
 
-/// The same options, with a point to look at and a distance from which all points are seen, from all sides of a turn if
-/// it is one. Options and points are in the object's coordinates.
+/// Completes options with a point to look at and a distance from which all points are seen, for a turntable from all
+/// its sides. Options and points are in the object's coordinates.
 CameraOptions holdAllPoints(const CameraOptions& options, std::span<const dvec3> points, double aspect, bool isTurn);
 
 /// The camera of options whose point to look at and distance are set, its depths fitted to the box around the object.
@@ -214,9 +217,10 @@ Camera placeCamera(const CameraOptions& options, const Bounds& bounds);
 
 /// `azimuth`: the camera's, degrees; the default key light follows it. `environment`: null for the built-in studio.
 Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment);
-/// The environment of a scene on the device; nothing where it has none of its own.
+/// Uploads the environment of a scene; empty where it has none of its own.
 std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded);
-Material makeMaterial(const MaterialDesc& desc);
+/// `textureColor`: LoadedObject's.
+Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor = {});
 
 // --- files --------------------------------------------------------------------------------------------------------
 

@@ -22,7 +22,7 @@ namespace {
 Jet innerWeight(const Jet& bezier, double scale, const Jet& x, const Jet& y) {
     const Jet sum = x + y;
     if (sum.f > 0) return bezier * x / sum;
-    // In the corner the second derivatives depend on the direction they are approached from: take x = y.
+    // In the corner the second derivatives of scale x^2 y / (x + y) depend on the direction of approach: along x = y.
     const double xx = scale / 4, xy = scale / 2, yy = -scale / 4;
     Jet weight;
     weight.uu = xx * x.u * x.u + 2 * xy * x.u * y.u + yy * y.u * y.u;

@@ -73,6 +73,7 @@ void fillPatches(Surface& surface, const FarTables& tables) {
     for (int array = 0; array < table.GetNumPatchArrays(); ++array) {
         const std::uint32_t type = table.GetPatchArrayDescriptor(array).GetType();
         for (int i = 0; i < table.GetNumPatches(array); ++i) {
+            // The patch, whose points follow those of the patches before it.
             const Far::PatchParam param = table.GetPatchParam(array, i);
             Patch patch{};
             patch.firstPoint = std::uint32_t(surface.patchPoints.size());
@@ -80,6 +81,7 @@ void fillPatches(Surface& surface, const FarTables& tables) {
             patch.param1 = param.field1;
             patch.type = type;
             for (const int point : table.GetPatchVertices(array, i)) surface.patchPoints.push_back(point);
+            // Its texture coordinates have a patch of their own, which may be of another type.
             if (tables.hasTexCoords) {
                 const Far::PatchParam texParam = table.GetPatchFVarPatchParam(array, i);
                 patch.texFirstPoint = std::uint32_t(surface.texPatchPoints.size());
@@ -89,6 +91,7 @@ void fillPatches(Surface& surface, const FarTables& tables) {
                                     .GetType();
                 for (const int point : table.GetPatchFVarValues(array, i)) surface.texPatchPoints.push_back(point);
             }
+            // Its leaf in the tree of its face.
             insertPatch(surface, param, std::uint32_t(surface.patches.size()));
             surface.patches.push_back(patch);
         }

@@ -67,7 +67,8 @@ bool hasFiniteSharpnessPast(const Cage& cage, int isolation) {
 
 /// Sine under which tangents count as parallel: OpenSubdiv's own at straight corners are 1.5e-5 off.
 constexpr double kParallel = 1e-4;
-/// Of the square of the longer tangent: below it their product is rounding. Long thin faces have small ones, too.
+/// A cross product below this share of the square of the longer tangent is rounding. Long thin faces have small ones,
+/// too.
 constexpr double kVanishing = 1e-9;
 
 bool isCorner(int sideCount, const dvec2& uv) {
@@ -76,7 +77,7 @@ bool isCorner(int sideCount, const dvec2& uv) {
     return false;
 }
 
-/// From the corner to its two neighbours, added up.
+/// The sum of the directions from a corner to its two neighbours, by (u,v).
 dvec2 diagonalFrom(int sideCount, const dvec2& corner) {
     if (sideCount == 4) return dvec2(1) - 2.0 * corner;
     return dvec2(1) - 3.0 * corner;

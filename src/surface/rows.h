@@ -61,12 +61,12 @@ public:
         return rows_.size() - 1;
     }
 
-    /// Of points of the cage, and from `cagePointCount` on of shared rows.
+    /// The weights of a row: of points of the cage, and from `cagePointCount` on of shared rows.
     [[nodiscard]] std::span<const Entry> row(std::size_t index) const {
         return std::span(entries_).subspan(rows_[index].first, rows_[index].count);
     }
 
-    /// Rows of points of the cage alone.
+    /// The shared rows, which name points of the cage alone.
     [[nodiscard]] const std::vector<std::vector<Entry>>& sharedRows() const { return sharedRows_; }
 
     /// The shared row that is this point, if there is one.

@@ -47,7 +47,8 @@ private:
 
 /// OpenSubdiv's own tangents at straight corners are 1.5e-5 off parallel.
 constexpr double kStraightCosine = -1 + 1e-7;
-/// Of the weights of a tangent, for a patch as large as the face; a patch of half the size has half as much.
+/// Weights of a tangent below this length count as 0, for a patch as large as the face; a patch of half the size has
+/// half as much.
 constexpr double kVanishingTangent = 1e-3, kNoTangent = 1e-5;
 
 /// A face takes less than 6 degrees around a vertex of more than 60 faces: the cross product of its own tangents would

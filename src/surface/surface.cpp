@@ -1,5 +1,4 @@
-#include <chrono>
-
+#include "base/clock.h"
 #include "surface/far.h"
 
 namespace relief {
@@ -28,8 +27,7 @@ dvec2 sidePoint(int sideCount, int side, double x) {
 }
 
 Surface buildSurface(const Cage& cage, const SurfaceOptions& options) {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
+    const double start = secondsNow();
     Surface surface;
     surface.scheme = options.scheme;
     surface.sideCount = options.scheme == Scheme::loop ? 3 : 4;
@@ -38,7 +36,7 @@ Surface buildSurface(const Cage& cage, const SurfaceOptions& options) {
     fillOwners(surface, tables, cage);
     fillTexPoints(surface, tables, cage.texCoords);
     fillStencils(surface, std::move(tables));
-    surface.tableSeconds = std::chrono::duration<double>(Clock::now() - start).count();
+    surface.tableSeconds = secondsNow() - start;
     return surface;
 }
 

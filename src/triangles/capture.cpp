@@ -59,6 +59,7 @@ struct Capture {
     /// Runs `draw` with everything bound.
     template <typename Draw>
     void run(const Pipeline& pipeline, const DrawPlan& plan, const Buffer& target, const Draw& draw) {
+        // What the shaders read.
         const RateTables rateTables = uploadRates(device, model, rates);
         const TexelBuffer drawFaces = uploadWords(device, "faces to draw", plan.faces);
         PassInputs inputs{};
@@ -68,6 +69,7 @@ struct Capture {
         describeRates(model, rates, rateTables, inputs, bindings);
         bindings[kBindDrawFaces] = drawFaces.binding();
         const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
+        // Draws need a rendering scope, although none of them rasterizes.
         device.submitAndWait([&](VkCommandBuffer commands) {
             constexpr std::uint32_t notANumber = 0xffffffffu; // what is never written must not look like a point
             vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, notANumber);
@@ -114,6 +116,8 @@ CapturedMesh Capture::patches() {
                     shaderStage(device, VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", model),
                     shaderStage(device, VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch_capture.tese", model)},
                    VK_PRIMITIVE_TOPOLOGY_PATCH_LIST);
+
+    // Transform feedback writes three vertices per triangle, in the order of the draws.
     const std::uint64_t vertexCount = plan.triangleCount * 3;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_TRANSFORM_FEEDBACK_BUFFER_BIT_EXT);
     const auto bindTarget = PFN_vkCmdBindTransformFeedbackBuffersEXT(
@@ -142,6 +146,8 @@ CapturedMesh Capture::grids() {
     const DrawPlan plan = planGrids(model, rates);
     const Pipeline& pipeline = pipelineOf({shaderStage(device, VK_SHADER_STAGE_VERTEX_BIT, "grid_capture.vert", model)},
                                           VK_PRIMITIVE_TOPOLOGY_POINT_LIST);
+
+    // Points of all grids, batch after batch, written by the vertex shader itself.
     std::uint64_t vertexCount = 0;
     for (const DrawBatch& b : plan.batches) vertexCount += std::uint64_t(b.columns + 1) * (b.rows + 1) * b.faceCount;
     const Buffer target = makeTarget(vertexCount, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -156,6 +162,8 @@ CapturedMesh Capture::grids() {
             first += size * b.faceCount;
         }
     });
+
+    // Triangles by the indices that the draws of this path use.
     CapturedMesh mesh = readBack(target, vertexCount);
     std::uint32_t first = 0;
     for (const DrawBatch& b : plan.batches) {

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
+#include "base/clock.h"
 #include "shared/dice.h"
 #include "shared/rates.h"
 #include "triangles/dice_table.h"
@@ -16,7 +16,7 @@ constexpr std::uint32_t kTileSamples = 1024; ///< of the insides of faces: enoug
 /// the samples of a tile are to leave kMostFunctionTurns for each evaluation.
 constexpr std::uint32_t kFunctionTileSamples = 64;
 constexpr std::uint64_t kVertexBytes = 32; ///< position and height, normal
-constexpr std::uint64_t kTangentBytes = 32;
+constexpr std::uint64_t kTexGradientBytes = 32;
 
 std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
 
@@ -200,14 +200,15 @@ Dicer::~Dicer() = default;
 namespace {
 
 std::uint64_t byteCountOf(const Work& work, const DiceOptions& options) {
-    const std::uint64_t vertexBytes =
-        kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) + (options.wantsTangents ? kTangentBytes : 0);
+    const std::uint64_t vertexBytes = kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) +
+                                      (options.wantsTexGradients ? kTexGradientBytes : 0);
     return work.vertexCount * vertexBytes + work.triangleCount * 12;
 }
 
 /// The buffers of a mesh, not written yet, and what is known of it beforehand.
 DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& options) {
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    // Texture coordinates are an empty table where nothing reads them.
     DicedMesh mesh;
     mesh.vertices =
         makeTexels(device, {.name = "diced vertices", .bytes = work.vertexCount * kVertexBytes, .usage = usage},
@@ -217,14 +218,16 @@ DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& opti
                                  .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
                                  .usage = usage},
                                 VK_FORMAT_R32G32_SFLOAT);
-    mesh.tangents = makeTexels(device,
-                               {.name = "diced tangents",
-                                .bytes = options.wantsTangents ? work.vertexCount * kTangentBytes : 0,
-                                .usage = usage},
-                               VK_FORMAT_R32G32B32A32_SFLOAT);
+    mesh.texGradients = makeTexels(device,
+                                   {.name = "diced texture gradients",
+                                    .bytes = options.wantsTexGradients ? work.vertexCount * kTexGradientBytes : 0,
+                                    .usage = usage},
+                                   VK_FORMAT_R32G32B32A32_SFLOAT);
     mesh.indices = makeBuffer(
         device,
         {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
+
+    // Known before anything is diced.
     mesh.firstTriangles = work.firstTriangles;
     mesh.faceRates = work.faceRates;
     mesh.runFirsts = work.runFirsts;
@@ -289,12 +292,12 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     // What they write.
     inputs.targets.dicedVertices = mesh.vertices.buffer.address;
     inputs.targets.dicedTexCoords = mesh.texCoords.buffer.address;
-    inputs.targets.dicedTangents = mesh.tangents.buffer.address;
+    inputs.targets.dicedTexGradients = mesh.texGradients.buffer.address;
     inputs.targets.dicedIndices = mesh.indices.address;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
-    constants.hasTangents = options.wantsTangents;
+    constants.hasTexGradients = options.wantsTexGradients;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
     Passes passes = passesOf(work, table, firstRing, firstCell);
@@ -315,7 +318,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
 }
 
 double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& set, const PassInputs& inputs) {
-    const auto start = std::chrono::steady_clock::now();
+    const double start = secondsNow();
     device.submitAndWait([&](VkCommandBuffer commands) {
         timer.reset(commands);
         resources.write(commands, inputs);
@@ -337,8 +340,7 @@ double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& s
     // Mesa's CPU driver stamps both times when it rasterizes, after all dispatches: the clock of the host serves
     // instead.
     const std::vector<double> times = timer.intervals();
-    if (device.traits().isCpu)
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    if (device.traits().isCpu) return 1e3 * (secondsNow() - start);
     return times.empty() ? 0 : times[0];
 }
 

@@ -27,7 +27,7 @@ public:
 
 private:
     /// True when faces along the edge need vertices of their own.
-    [[nodiscard]] bool isParted(std::uint32_t edge) const {
+    [[nodiscard]] bool isSplit(std::uint32_t edge) const {
         const Edge& e = model_.edges[edge];
         return incidences_.of(edge).size() > 1 && (e.incidenceCount > 0 || (e.flags & kOnSeam) != 0);
     }
@@ -51,7 +51,7 @@ private:
 
     void joinCorners() {
         for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge) {
-            if (isParted(edge)) continue;
+            if (isSplit(edge)) continue;
             for (const Incidence& incidence : incidences_.of(edge))
                 for (const bool atEnd : {false, true}) {
                     const auto slot = [&](const Incidence& t) { return rootOf(slotAt(t, atEnd ? t.end : t.start)); };
@@ -74,8 +74,8 @@ private:
                             {{incidence.face, incidence.side, x, x}, model_.edges[edge].corners[atEnd ? 1 : 0], 1});
                     }
                     FaceRuns& runs = table_.faceRuns[incidence.face];
-                    const std::uint32_t place = slot % kSlots;
-                    (place < 4 ? runs.corners[place] : runs.middles[place - 4]) = run;
+                    const std::uint32_t number = slot % kSlots;
+                    (number < 4 ? runs.corners[number] : runs.middles[number - 4]) = run;
                 }
         table_.cornerRunCount = std::uint32_t(table_.runs.size());
     }
@@ -88,12 +88,12 @@ private:
             if (isSmooth(edge)) addRunsOf(edge);
     }
 
-    /// One run of vertices, all in one patch of the owner, which alone decides where they lie. With a height function
-    /// each vertex has an invocation of its own (kMostFunctionTurns).
+    /// True for an edge with one run of vertices, all of them evaluated in one patch of the owner.
+    /// With a height function each vertex has an invocation of its own (kMostFunctionTurns).
     [[nodiscard]] bool isSmooth(std::uint32_t edge) const {
         if (model_.function) return false;
         const Edge& record = model_.edges[edge];
-        if (model_.isTriangles() || record.incidenceCount > 0 || incidences_.of(edge).empty() || isParted(edge))
+        if (model_.isTriangles() || record.incidenceCount > 0 || incidences_.of(edge).empty() || isSplit(edge))
             return false;
         const std::uint32_t root = model_.faces[record.owner.face].root;
         return incidences_.of(edge).front().face == record.owner.face && root != kNoPatch && (root & kLeafBit) != 0 &&
@@ -103,7 +103,7 @@ private:
     void addRunsOf(std::uint32_t edge) {
         for (std::size_t i = 0; i < incidences_.of(edge).size(); ++i) {
             const Incidence& incidence = incidences_.of(edge)[i];
-            if (i == 0 || isParted(edge)) table_.runs.push_back({incidence, edge, 0});
+            if (i == 0 || isSplit(edge)) table_.runs.push_back({incidence, edge, 0});
             table_.faceRuns[incidence.face].sides[2 * incidence.side + halfOf(incidence, edge)] =
                 std::uint32_t(table_.runs.size() - 1);
         }

@@ -15,7 +15,8 @@ struct DiceTable {
     std::uint32_t firstFaceRuns = 0;
 };
 
-/// Vertices of an edge or corner are repeated where its faces' normals or texture coordinates differ.
+/// Makes the table of a model. Vertices of an edge or corner are repeated where its faces' normals or texture
+/// coordinates differ.
 DiceTable makeDiceTable(Device& device, const SurfaceModel& model);
 
 /// One per vertex of a diced mesh: whether it lies on an edge of the cage that has one drawn face.

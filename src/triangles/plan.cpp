@@ -153,6 +153,7 @@ DrawPlan planPatches(const SurfaceModel& model, const EdgeRates& rates, std::uin
         std::uint64_t vertices = 0;
         const std::size_t firstBatch = plan.batches.size();
         for (const std::uint32_t f : facesOf(model, isVisible, hidden != 0)) {
+            // A new draw where this face would make the one before too large.
             const FaceSegments face = faceSegments(model, rates, f);
             const std::uint64_t largest = std::max(face.u, face.v), more = (largest + 1) * (largest + 1);
             if (plan.batches.size() == firstBatch || vertices + more > verticesPerDraw) {
@@ -162,6 +163,8 @@ DrawPlan planPatches(const SurfaceModel& model, const EdgeRates& rates, std::uin
             vertices += more;
             ++plan.batches.back().faceCount;
             plan.faces.push_back(f);
+
+            // What it adds to the counts; its corners and edges are counted already.
             plan.triangleCount += tessellatedTriangles({face.sides, std::size_t(model.sideCount)});
             if (model.isTriangles())
                 plan.vertexCount += insideTriangle(largest);

@@ -69,6 +69,7 @@ EdgeRater::~EdgeRater() = default;
 /// Runs a shader with one invocation per edge, which writes `floatCount` numbers to inputs.targets.edges. Returns them,
 /// edge after edge.
 std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceModel& model, PassInputs inputs) {
+    // What the shader reads and writes.
     std::vector<float> numbers(model.edges.size() * what.floatCount);
     const Buffer out =
         makeBuffer(device, {.name = what.file,
@@ -78,6 +79,8 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceM
     describe(model, inputs, bindings);
     inputs.targets.edges = out.address;
     if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights] = what.edgeHeights->binding();
+
+    // One submission with the copy to the host: plans of draws wait for the numbers.
     ShaderConstants constants = constantsOf(model, NormalKind::limit);
     constants.wantsTexCoords = what.floatCount > 1;
     const Pipeline& pipeline = stages.pipeline(what.file, model, constants);

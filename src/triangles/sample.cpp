@@ -31,6 +31,8 @@ SurfaceSampler::~SurfaceSampler() = default;
 std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std::span<const SampleQuery> queries,
                                                  const SampleOptions& options) {
     for (std::size_t i = 0; i < queries.size(); ++i) checkQuery(model, queries[i], options.firstRow + i);
+
+    // What the shader reads and writes.
     Device& device = parts_->device;
     const Buffer in = uploadArray(device, "queries", queries);
     std::vector<SampleResult> results(queries.size());
@@ -44,6 +46,7 @@ std::vector<SampleResult> SurfaceSampler::sample(const SurfaceModel& model, std:
     inputs.targets.sampleQueries = in.address;
     inputs.targets.sampleResults = out.address;
 
+    // One invocation per query.
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.isGenericBasis = options.isGenericBasis;
     constants.wantsTexCoords = true;

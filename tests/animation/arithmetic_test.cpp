@@ -52,7 +52,7 @@ TEST(Arithmetic, groupsAsMathematicsDoes) {
     EXPECT_EQ(valueOf(" ( 1 +\t2 )\n* 3 "), 9);
 }
 
-TEST(Arithmetic, hasFunctions) {
+TEST(Arithmetic, computesItsFunctions) {
     EXPECT_EQ(valueOf("sin(t)", 1.25), std::sin(1.25));
     EXPECT_EQ(valueOf("cos(pi)"), -1);
     EXPECT_EQ(valueOf("abs(-3)"), 3);
@@ -69,7 +69,7 @@ TEST(Arithmetic, hasNoFiniteValueWhereMathematicsHasNone) {
         EXPECT_FALSE(std::isfinite(valueOf(text))) << text;
 }
 
-TEST(Arithmetic, knowsWhetherItMoves) {
+TEST(Arithmetic, reportsWhetherItDependsOnTime) {
     const auto usesTime = [](const std::string& text) {
         TextReader reader(text);
         return readArithmetic(reader).usesTime();
@@ -105,7 +105,7 @@ TEST(Arithmetic, saysWhatItFoundAndWhatItExpected) {
     expectRefused(std::string("1+\x01", 3), 3, {"found the byte 0x01"});
 }
 
-TEST(Arithmetic, listsTheNamesThatItKnows) {
+TEST(Arithmetic, listsTheNamesThatExist) {
     expectRefused("2*sine(t)", 3, {"'sine'", "t, pi, sin, cos, abs, min, max", "did you mean 'sin'?"});
     expectRefused("T", 1, {"'T'", "t, pi, sin", "did you mean 't'?"});
     expectRefused("1+velocity", 3, {"'velocity'", "t, pi, sin"});
@@ -119,7 +119,7 @@ TEST(Arithmetic, refusesNumbersOutOfRange) {
     expectRefused("1e-999", 1, {"too large or too small"});
 }
 
-TEST(Arithmetic, isNestedOnlySoDeep) {
+TEST(Arithmetic, refusesNestingThatIsTooDeep) {
     const auto repeated = [](const std::string& text, int count) {
         std::string all;
         for (int i = 0; i < count; ++i) all += text;
@@ -133,7 +133,7 @@ TEST(Arithmetic, isNestedOnlySoDeep) {
     EXPECT_EQ(valueOf(repeated("1+", 2000) + "1"), 2001) << "which is long, not deep";
 }
 
-TEST(Arithmetic, isOnlySoLong) {
+TEST(Arithmetic, refusesTextsThatAreTooLong) {
     EXPECT_EQ(valueOf(std::string(4095, ' ') + "1"), 1);
     expectFailure(Failure::usage, {"4097 letters", "4096"}, [] { valueOf(std::string(4096, ' ') + "1"); });
 }

@@ -24,7 +24,7 @@ inline void writeFrames(const std::string& path, const Cage& cage, std::uint32_t
     writePointCache(path, header, [&](std::uint32_t k) { return movedPoints(cage, startFrame + k); });
 }
 
-/// Without a sound.
+/// Reads a point cache and ignores its warnings.
 inline std::unique_ptr<Animation> readQuietly(const std::string& path, const Cage& cage,
                                               const CacheOptions& options = {}) {
     return readPointCache(path, cage, options, [](const std::string&) {});

@@ -29,7 +29,7 @@ std::vector<vec3> deformed(const Cage& cage, const std::string& expression, doub
     return deform(stillPose(cage), cage, expression)->pose(t).positions;
 }
 
-/// Expects `expected(p)` of every point, given and wanted relative to the centre.
+/// Expects `expected(p)` of every point, given and expected relative to the centre.
 template <typename Expected>
 void expectDeformed(const std::string& expression, double t, const Expected& expected) {
     const Cage cage = cloud();
@@ -264,7 +264,7 @@ TEST(DeformerErrors, sayWhatWasFoundAndWhatExpected) {
     expectWordsRefused("twist(angle=1, angle=2)", 16, {"angle is given twice"});
 }
 
-TEST(DeformerErrors, tellAxesThatAreNone) {
+TEST(DeformerErrors, nameAxesThatDoNotExist) {
     expectWordsRefused("twist(axis=w)", 12, {"'w'", "axis: x, y, z, next"});
     expectWordsRefused("twist(axis=1)", 12, {"found '1'", "x, y, z or next"});
     expectWordsRefused("twist(axis=xy)", 12, {"'xy'"});

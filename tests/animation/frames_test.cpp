@@ -26,23 +26,23 @@ TEST(FrameName, leavesOtherBracesAlone) {
     EXPECT_EQ(frameName("a}{frame}{", 7), "a}7{");
 }
 
-TEST(FrameName, refusesPatternsWithoutOnePlace) {
+TEST(FrameName, refusesPatternsWithoutExactlyOnePlaceholder) {
     for (const std::string pattern : {"", "a.png", "{}", "{0}", "a.{shot}.png", "%04d", "frame"})
         expectFailure(Failure::usage, {pattern, "{frame:4}"}, [&] { frameName(pattern, 1); });
     expectFailure(Failure::usage, {"2 places"}, [] { frameName("{frame}.{frame:4}", 1); });
 }
 
-TEST(FrameName, refusesPlacesThatAreNotWrittenAsTheyShould) {
+TEST(FrameName, refusesPlaceholdersThatAreMisspelt) {
     for (const std::string place : {"{frame:0}", "{frame:10}", "{frame:04}", "{frame:}", "{frame:x}", "{frame:-1}",
                                     "{frames}", "{Frame}", "{fram}", "{frame 4}", "{frame:4", "{frame", "{frame:{4}"})
         if (isFramePattern(place))
             expectFailure(Failure::usage, {"'" + place + "'", "{frame:DIGITS}", "1 to 9"},
                           [&] { frameName(place, 1); });
         else
-            ADD_FAILURE() << place << " is meant to be a place for the frame";
+            ADD_FAILURE() << place << " is meant to be a placeholder";
 }
 
-TEST(IsFramePattern, tellsPatternsFromNames) {
+TEST(IsFramePattern, separatesPatternsFromNames) {
     EXPECT_TRUE(isFramePattern("a.{frame}.obj"));
     EXPECT_TRUE(isFramePattern("{a}{frame:4}"));
     for (const std::string name : {"", "a.obj", "frame.obj", "{shot}.obj", "{}", "{", "}", "{:4}"})
@@ -86,7 +86,7 @@ TEST(CageSequence, blendsOverGaps) {
     EXPECT_TRUE(haveSameBits(step->pose(5.0 / 24).positions, movedPoints(cube(), 2)));
 }
 
-TEST(CageSequence, passesOverFilesOfOtherPatterns) {
+TEST(CageSequence, skipsFilesOfOtherPatterns) {
     const TemporaryFolder folder;
     putFrames(folder, "a.{frame:4}.obj", cube(), {3, 4});
     for (const std::string name : {"a.5.obj", "a.00006.obj", "a.0007.obj.bak", "b.0008.obj", "a.-009.obj", "a..obj",
@@ -122,7 +122,7 @@ TEST(CageSequence, namesFrameAndFileWhereTheTopologyChanges) {
     }
 }
 
-TEST(CageSequence, tellsAtOnceThatItIsOfAnotherCage) {
+TEST(CageSequence, refusesAnotherCageAtOnce) {
     const TemporaryFolder folder;
     putFrames(folder, "a.{frame}.obj", cube(), {1, 2});
     expectFailure(Failure::input, {folder / "a.1.obj", "frame 1", "8 points"},

@@ -69,7 +69,7 @@ TEST(PointCacheErrors, nameFilesThatCannotBeRead) {
         expectFailure(Failure::file, {folder / name, "directory"}, [&] { readQuietly(folder / name, cube()); });
 }
 
-TEST(PointCacheErrors, tellFilesOfAnotherKind) {
+TEST(PointCacheErrors, nameFilesOfAnotherKind) {
     expectRefused(pc2().with(0, "POINTCACHE3"), {"no .pc2", "POINTCACHE2"});
     expectRefused({"a.pc2", mdd().bytes}, {"no .pc2"});
     expectRefused({"a.mdd", pc2().bytes}, {"points per frame", "the cage has 8"});
@@ -78,7 +78,7 @@ TEST(PointCacheErrors, tellFilesOfAnotherKind) {
     expectRefused(pc2().with(12, word(0xffffffffu, kLittle)), {"version -1"});
 }
 
-TEST(PointCacheErrors, tellFilesThatAreCutInTheHeader) {
+TEST(PointCacheErrors, nameFilesThatAreCutInTheHeader) {
     for (const std::size_t length : {0, 1, 12, 31})
         expectRefused(pc2().cut(length), {"ends in its header", fmt::format("{} bytes of 32", length)});
     for (const std::size_t length : {0, 7}) expectRefused(mdd().cut(length), {"ends in its header", "of 8"});
@@ -95,13 +95,13 @@ TEST(PointCacheErrors, sayBothCountsOfPoints) {
     expectRefused(mdd().with(4, word(0xfffffff8u, kBig)), {"-8 points", "the cage has 8"});
 }
 
-TEST(PointCacheErrors, tellByteSwappedHeaders) {
+TEST(PointCacheErrors, nameByteSwappedHeaders) {
     expectRefused(pc2().with(12, word(1u, kBig)), {"looks byte-swapped", "little endian"});
     expectRefused(pc2().with(16, word(8u, kBig)), {"looks byte-swapped", "the cage has 8"});
     expectRefused(mdd().with(0, word(3u, kLittle) + word(8u, kLittle)), {"looks byte-swapped", "the cage has 8"});
 }
 
-TEST(PointCacheErrors, tellImpossibleCountsOfFrames) {
+TEST(PointCacheErrors, nameImpossibleCountsOfFrames) {
     const std::vector<std::pair<std::uint32_t, std::string>> counts = {
         {0u, "0 frames"}, {1u << 31, "-2147483648 frames"}, {0xffffffffu, "-1 frames"}};
     for (const auto& [count, words] : counts) {
@@ -115,7 +115,7 @@ TEST(PointCacheErrors, takeNoMemoryForFramesThatAreNotThere) {
     expectRefused(mdd().with(0, word(0x7fffffffu, kBig)), {"ends in its header", "8589934596"});
 }
 
-TEST(PointCacheErrors, tellFilesThatAreTooShortOrTooLong) {
+TEST(PointCacheErrors, nameFilesThatAreTooShortOrTooLong) {
     expectRefused(pc2().cut(kPc2Frame + 3 * kFrameBytes - 1), {"after 2 whole frames of 3"});
     expectRefused(pc2().cut(kPc2Frame), {"after 0 whole frames of 3"});
     expectRefused(mdd().cut(kMddFrame + 2 * kFrameBytes), {"after 2 whole frames of 3"});
@@ -124,17 +124,17 @@ TEST(PointCacheErrors, tellFilesThatAreTooShortOrTooLong) {
     expectRefused(mdd().with(0, word(2u, kBig)), {"goes on for 100 bytes", "2 frames"});
 }
 
-TEST(PointCacheErrors, tellRatesAndStartsThatMakeNoTimes) {
+TEST(PointCacheErrors, nameRatesAndStartsThatMakeNoTimes) {
     for (const float rate : {0.0f, -0.0f, -1.0f, 1e-30f, 1e-4f, 1e30f, kInfinity, -kInfinity, std::nanf("")})
         expectRefused(pc2().with(24, word(rate, kLittle)),
                       {"sample rate is " + fmt::format("{}", rate), "0.001 to 1000", "--cache-frames"});
     for (const float start : {kInfinity, -kInfinity, std::nanf("")})
         expectRefused(pc2().with(20, word(start, kLittle)), {"start frame is " + fmt::format("{}", start), "finite"});
-    // So far out that doubles do not tell a frame from the next.
+    // So far out that doubles do not separate a frame from the next.
     expectRefused(pc2().with(20, word(1e30f, kLittle)), {"frame 1", "times must rise"});
 }
 
-TEST(PointCacheErrors, tellTimesThatDoNotRise) {
+TEST(PointCacheErrors, nameTimesThatDoNotRise) {
     const float first = 10 / 24.0f;
     expectRefused(mdd().with(12, word(first, kBig)), {"frame 1", "times must rise"});
     expectRefused(mdd().with(16, word(-1.0f, kBig)), {"frame 2", "-1 seconds", "times must rise"});

@@ -72,7 +72,7 @@ std::vector<dvec3> asDoubles(const std::vector<vec3>& points) { return {points.b
 
 const std::vector<vec3> kArm = {{0, 0, 0}, {1, 0.5f, 0}, {2, 0.25f, 0.5f}};
 
-/// One influence a row; weights of the elbow are shared.
+/// One influence per row; weights of the elbow are shared.
 GltfFile arm() {
     GltfFile file;
     file.addMesh(kArm, {0, 1, 2});
@@ -80,7 +80,7 @@ GltfFile arm() {
     const int weights = file.add(std::vector<vec4>{{1, 0, 0, 0}, {0.5f, 0.5f, 0, 0}, {1, 0, 0, 0}});
     file.attributes()["JOINTS_0"] = joints;
     file.attributes()["WEIGHTS_0"] = weights;
-    // The mesh is no child of a bone, and its own place does not count.
+    // The mesh is no child of a bone, and its own transform is ignored.
     file.addNode({{"mesh", 0}, {"skin", 0}, {"translation", {50, 60, 70}}});
     file.addNode({{"name", "shoulder"}, {"children", {2}}});
     file.addNode({{"name", "elbow"}, {"translation", {1, 0, 0}}}, false);
@@ -431,7 +431,7 @@ TEST(Skin, namesTheFirstPointWithoutAVertex) {
                   [&] { Skinned(arm(), cageOf(points)); });
 }
 
-TEST(Skin, bindsTheNearestVertexAndKeepsThePlaceAtRest) {
+TEST(Skin, bindsTheNearestVertexAndKeepsThePositionAtRest) {
     GltfFile file = morphedArm();                       // half a morph at rest
     file.json["nodes"][2]["rotation"] = turnRoundZ(30); // and the elbow bent
     std::vector<vec3> points;

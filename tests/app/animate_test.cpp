@@ -58,7 +58,7 @@ TEST_F(Animate, movesOnTheDeviceAsRenderDoesOnTheHost) {
     EXPECT_LT(std::sqrt(squares / double(moved.texels.size())), 0.01); // shadow maps differ in what they cover
 }
 
-TEST_F(Animate, uploadsTwelveBytesAPointOfTheCage) {
+TEST_F(Animate, uploadsTwelveBytesPerPointOfTheCage) {
     const nlohmann::json json = jsonOf(relief(twist("0:1", "f.{frame}.png"), "--json"));
     ASSERT_EQ(json.at("frames").size(), 2u);
     const std::size_t points = 128;

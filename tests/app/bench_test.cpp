@@ -42,7 +42,8 @@ TEST(Bench, refusesWordsAndFilesThatMakeNoSense) {
     putFile(runs.after, "{}");
     expectRefused(relief({"bench", "--compare", runs.before, runs.after}), Failure::input,
                   {"after.json", "relief-bench"});
-    expectRefused(relief({"bench", "bandwith"}), Failure::usage, {"bandwith"});
+    expectRefused(relief({"bench", "bandwith"}), Failure::usage,
+                  {"bandwith is not one of bandwidth, frame", "did you mean bandwidth?"});
     expectRefused(relief({"bench", "--height", "map.exr"}), Failure::usage, {"--cage", "--height"});
     expectRefused(relief({"bench", "frame", "--json", runs.folder / "no/r.json"}), Failure::file, {"no/r.json"});
     expectRefused(relief({"bench", "frame", "--from", runs.before}), Failure::usage, {"--from"});

@@ -114,7 +114,7 @@ TEST_F(OddCages, ofTrianglesWithTagsAskForAScheme) {
     expectRefused(relief(verbs()[1]), Failure::usage, {"--scheme"});
 }
 
-// --- vertices at one place -----------------------------------------------------------------------------------------
+// --- vertices at the same position ---------------------------------------------------------------------------------
 
 /// A cube whose faces have vertices of their own; `shift` moves every second one along x.
 std::string unweldedCube(double shift = 0) {
@@ -199,7 +199,7 @@ TEST_F(OddCages, areMovedByCachesOfTheirOwnPointsWhenTheyAreWelded) {
     double sum = 0;
     for (std::size_t i = 0; i < cached.size(); ++i) sum += std::abs(double(cached[i]) - double(deformed[i]));
     EXPECT_LT(sum / double(cached.size()), 0.05);
-    // A clip on the device, and its cache again: one point a vertex of the file.
+    // A clip on the device, and its cache again: one point per vertex of the file.
     Words clip = {"animate", cage_, "--weld", "-q", "--cache", cache, "--fps", "1", "--frames", "0:2"};
     Words frames = clip, copy = clip;
     frames.insert(frames.end(), {"--size", "64,64", "--rate", "2", "-o", folder_ / "f.{frame}.png"});

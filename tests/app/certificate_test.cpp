@@ -24,7 +24,7 @@ Certificate soundCertificate() {
     return c;
 }
 
-/// Expects one broken promise that tells of all `parts`.
+/// Expects one broken promise that names all `parts`.
 void expectBroken(const Certificate& certificate, const std::vector<std::string>& parts) {
     const std::vector<std::string> broken = certificate.brokenPromises();
     ASSERT_EQ(broken.size(), 1u) << fmt::format("{}", fmt::join(broken, "; "));

@@ -105,9 +105,9 @@ TEST_F(ClosedCages, areClosedInObjWithEachPositionOnce) {
             SCOPED_TRACE(closed.name + " " + rates);
             const Cage obj = readCage(exported(closed, "a.obj", rates));
             EXPECT_EQ(wrongEdges(obj.corners), 0u);
-            std::set<std::tuple<float, float, float>> places;
-            for (const vec3& p : obj.positions) places.insert({p.x, p.y, p.z});
-            EXPECT_EQ(places.size(), obj.positions.size());
+            std::set<std::tuple<float, float, float>> positions;
+            for (const vec3& p : obj.positions) positions.insert({p.x, p.y, p.z});
+            EXPECT_EQ(positions.size(), obj.positions.size());
             EXPECT_EQ(obj.hasTexCoords(), closed.cage.hasTexCoords());
         }
 }

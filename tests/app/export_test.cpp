@@ -58,7 +58,7 @@ Ply readPly(const std::string& path) {
 
 /// One number for each distinct position; two positions are one when all their bits are.
 struct Welded {
-    std::vector<std::uint32_t> names; ///< one a vertex
+    std::vector<std::uint32_t> names; ///< one per vertex
     std::size_t count = 0;
 };
 

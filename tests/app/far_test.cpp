@@ -167,8 +167,8 @@ TEST_F(Far, isSampledInDoublePrecision) {
     ASSERT_EQ(far.size(), 3u);
     for (std::size_t row = 0; row < 3; ++row)
         for (std::size_t i = 3; i < 22; ++i) {
-            const bool isPlace = i < 6 || (i >= 16 && i < 19), isLength = i < 12 || (i >= 15 && i < 19);
-            const double offset = isPlace ? kUtm[int((i + (i < 6 ? 0 : 2)) % 3)] : 0;
+            const bool isPosition = i < 6 || (i >= 16 && i < 19), isLength = i < 12 || (i >= 15 && i < 19);
+            const double offset = isPosition ? kUtm[int((i + (i < 6 ? 0 : 2)) % 3)] : 0;
             EXPECT_NEAR(far[row][i] - offset, near[row][i], 4e-6) << row << ' ' << i;
             EXPECT_NEAR(small[row][i] / (isLength ? 1e-12 : 1), near[row][i], 4e-6) << row << ' ' << i;
         }

@@ -1,4 +1,6 @@
 // relief info: cages, pictures, devices, as text and as JSON.
+#include <sstream>
+
 #include "program.h"
 
 namespace relief::test {
@@ -28,13 +30,27 @@ TEST(Info, ofACageCountsItsParts) {
     EXPECT_GT(lantern.at("boundary_edges"), 0);
 }
 
+/// Expects that the values of all rows of a report begin in the same column.
+void expectAligned(const std::string& report) {
+    constexpr std::size_t kValueColumn = 35;
+    std::istringstream lines(report);
+    std::size_t rowCount = 0;
+    for (std::string line; std::getline(lines, line);) {
+        if (!line.starts_with("  ")) continue;
+        ++rowCount;
+        ASSERT_GT(line.size(), kValueColumn) << line;
+        EXPECT_TRUE(line[kValueColumn - 1] == ' ' && line[kValueColumn] != ' ') << line;
+    }
+    EXPECT_GT(rowCount, 5u) << report;
+}
+
 TEST(Info, ofACageReadsAsText) {
     const Outcome outcome = relief({"info", cagePath("ball")});
     EXPECT_EQ(outcome.exitCode, 0);
     EXPECT_EQ(outcome.err, "");
     EXPECT_TRUE(outcome.out.starts_with(cagePath("ball") + "\n")) << outcome.out;
-    EXPECT_TRUE(contains(outcome.out, "\n  extraordinary vertices       8\n")) << outcome.out;
-    EXPECT_FALSE(contains(outcome.out, "boundary")) << "what is zero is left out: " << outcome.out;
+    EXPECT_TRUE(contains(outcome.out, "\n  extraordinary vertices           8\n")) << outcome.out;
+    EXPECT_FALSE(contains(outcome.out, "boundary")) << "zeros are omitted: " << outcome.out;
 }
 
 TEST(Info, ofMapsShowsTheRangeOfEveryChannel) {
@@ -60,7 +76,7 @@ TEST(Info, ofMapsShowsTheRangeOfEveryChannel) {
     EXPECT_EQ(list[1].at("default_mid"), 0.5);
 
     const std::string text = relief({"info", folder / "two.exr"}).out;
-    EXPECT_TRUE(contains(text, "\n  default mid                  0\n")) << text;
+    EXPECT_TRUE(contains(text, "\n  default mid                      0\n")) << text;
     EXPECT_TRUE(contains(text, "((-0.25, 0.5), (1, 3))")) << text;
 }
 
@@ -99,7 +115,8 @@ TEST(Info, ofACageAndItsMapSaysHowFarSeamsDisagree) {
     EXPECT_EQ(cube.at("seam_disagreement_at").at("face"), 0);
 
     const std::string text = relief(words).out;
-    EXPECT_TRUE(contains(text, "\n  seam disagreement max        0.5\n")) << text;
+    EXPECT_TRUE(contains(text, "\n  seam disagreement max            0.5\n")) << text;
+    expectAligned(text);
     EXPECT_FALSE(jsonOf(relief({"info", folder / "cube.obj", "--json"})).at(0).contains("map"));
 
     writeImage(folder / "flat.png", {4, 4, 1, std::vector<float>(16, 0.5f)}, SampleType::uint8);
@@ -108,7 +125,7 @@ TEST(Info, ofACageAndItsMapSaysHowFarSeamsDisagree) {
     EXPECT_TRUE(contains(flat.err, "8-bit")) << flat.err;
 }
 
-TEST(Info, withAMapWantsOneCage) {
+TEST(Info, withAMapNeedsOneCage) {
     const TemporaryFolder folder;
     writeImage(folder / "map.exr", sineImage(8, 1), SampleType::real);
     const std::string height = "--height " + (folder / "map.exr");
@@ -136,6 +153,7 @@ TEST(Info, ofDevicesNamesThoseThatRenderUses) {
     const std::string text = relief({"info", "--devices"}).out;
     EXPECT_TRUE(text.starts_with(list[0].at("device").get<std::string>() + "\n")) << text;
     EXPECT_TRUE(contains(text, "\n  driver ")) << text;
+    expectAligned(text);
 }
 
 TEST(Info, ofDevicesSaysWhichPathIsTheDefaultAndWhatIsMissing) {

@@ -20,7 +20,7 @@ std::vector<Words> readersOf(const std::string& path, const TemporaryFolder& fol
             {"bench", "--compare", path, path}};
 }
 
-/// The same for files that are known by their extension: `named` gives the name one.
+/// Each reader of files that are recognised by their extension; `named` adds that to the path.
 std::vector<Words> readersByExtension(const std::function<std::string(const std::string&)>& named,
                                       const TemporaryFolder& folder) {
     const std::string cube = cagePath("cube"), picture = folder / "f.{frame}.png";

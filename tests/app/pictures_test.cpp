@@ -76,7 +76,7 @@ TEST_F(Drawn, everyNormalIsAPictureOfItsOwn) {
     expectAllDifferent(pictures, 0.05);
 }
 
-TEST_F(Drawn, everyPathKnowsBothSpacings) {
+TEST_F(Drawn, everyPathSupportsBothSpacings) {
     for (const std::string path : {"tessellation", "grid", "dice"}) {
         const std::string more = "--scale 0.1 --size 96,96 --edge-pixels 7.7 --show wireframe --path " + path;
         expectAllDifferent({{path + " equal", drawAs(folder_ / "a.png", more)},

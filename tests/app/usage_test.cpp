@@ -4,7 +4,7 @@
 namespace relief::test {
 namespace {
 
-const Words kVerbs = {"render", "animate", "export", "sample", "check", "info"};
+const Words kVerbs = {"render", "animate", "export", "sample", "check", "normal-map", "height-map", "info"};
 
 TEST(Help, ofEveryVerbShowsExamples) {
     for (const std::string& verb : kVerbs) {
@@ -172,7 +172,7 @@ TEST(Usage, wordsWithLineBreaksStillMakeOneLine) {
     expectRefused(relief({"info", "x", "--two\nlines"}), Failure::usage, {"lines"});
 }
 
-// Only the device knows how far its tessellator goes; the grid goes further.
+// The tessellator's limit is a property of the device; the grid's is higher.
 TEST(Usage, ratesThatThePathCannotDoAreRefusedWithTheRange) {
     const TemporaryFolder folder;
     const Words words = {"render", cagePath("cube"), "--size", "64,64", "-o", folder / "a.png"};

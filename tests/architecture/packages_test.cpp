@@ -20,6 +20,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"embree", "libembree-dev"},
     {"draco", "libdraco-dev"},
     {"meshoptimizer", "libmeshoptimizer-dev"},
+    {"Eigen3", "libeigen3-dev"},
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glslang", "glslang-dev"},

@@ -88,7 +88,7 @@ TEST(WriteWhole, refusesToReplaceDevicesAndFolders) {
     EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-TEST(WriteWhole, passesOverTemporaryNamesThatAreTaken) {
+TEST(WriteWhole, skipsTemporaryNamesThatAreTaken) {
     const TemporaryFolder folder;
     for (int i = 0; i < 300; ++i) putFile(folder / fmt::format(".relief-{}-{}", getpid(), i), "other");
     writeFile(folder / "a.txt", "new");
@@ -157,7 +157,7 @@ TEST(WriteWhole, saysThatTheDiskIsFull) {
     umount(folder.path.c_str());
 }
 
-TEST(WriteWhole, bearsTheLongestNames) {
+TEST(WriteWhole, takesTheLongestNames) {
     const TemporaryFolder folder;
     const std::string path = folder / (std::string(251, 'n') + ".png");
     writeFile(path, "x");
@@ -227,7 +227,7 @@ TEST(ReadFile, refusesAtOnceWhatIsNoFile) {
     }
 }
 
-TEST(ReadFile, leavesThosePipesAloneThatSomebodyWaitsFor) {
+TEST(ReadFile, doesNotOpenPipesThatAWriterWaitsFor) {
     const TemporaryFolder folder;
     ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
     const pid_t writer = fork();

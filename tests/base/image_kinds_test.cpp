@@ -36,8 +36,8 @@ void writeExr(const std::string& path, const std::vector<OIIO::ImageSpec>& parts
 
 /// The number of the channel that a word chooses, or -1.
 float chosen(const std::string& path, const std::string& word) {
-    const std::optional<ChannelIndex> place = findChannel(readImageInfo(path), word);
-    return place ? readImage(path, place->channel, {}, place->part).texels.at(0) : -1;
+    const std::optional<ChannelIndex> found = findChannel(readImageInfo(path), word);
+    return found ? readImage(path, found->channel, {}, found->part).texels.at(0) : -1;
 }
 
 template <typename T>

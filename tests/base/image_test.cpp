@@ -172,7 +172,7 @@ TEST(Image, givesOneChannel) {
     expectFailure(Failure::input, {folder / "a.exr", "channel 3", "0 to 2"}, [&] { readImage(folder / "a.exr", 3); });
 }
 
-TEST(Image, infoTellsWhatTheHeaderHolds) {
+TEST(Image, infoHasWhatTheHeaderHolds) {
     const TemporaryFolder folder;
     writeAllKinds(folder);
     const ImageInfo png = readImageInfo(folder / "rgb16.png");

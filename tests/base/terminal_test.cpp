@@ -86,7 +86,7 @@ TEST(Progress, drawsEachPercentOnce) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\r'), 101);
 }
 
-TEST(Progress, bearsATotalOfZero) {
+TEST(Progress, acceptsATotalOfZero) {
     EXPECT_TRUE(stderrOf([] { Progress("work", 0, ShowProgress::always).advance(); }).ends_with("\n"));
 }
 

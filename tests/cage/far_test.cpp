@@ -8,7 +8,7 @@
 namespace relief::test {
 namespace {
 
-/// A multiple of everything that coordinates are rounded to, and places that are none.
+/// Offsets of cages: a multiple of every spacing that coordinates are rounded to, and two that are not.
 const std::vector<dvec3> kOffsets = {{1e7, -1e7, 2e7}, {512347.078, 120.5, 4187654.321}, {30, 0, 0}};
 
 std::string objOf(const Cage& cage, const dvec3& offset, double scale = 1) {
@@ -73,14 +73,14 @@ TEST(FarObj, verticesWithoutAFaceDoNotSayWhereItIs) {
     EXPECT_LT(glm::length(cage.coordinates.origin - kOffsets[1]), 10);
 }
 
-TEST(FarObj, isToldInTheCoordinatesThatAreGiven) {
+TEST(FarObj, hasTheCoordinatesThatAreGiven) {
     const Coordinates given{.origin = dvec3(8, 0, 0), .unit = 0.25};
     const Cage cage = parseObj(objOf(cube(), dvec3(9, 0, 0)), "given.obj", warnOnStderr, given);
     EXPECT_TRUE(cage.coordinates == given);
     EXPECT_EQ(cage.positions[0], vec3(0, -4, -4));
 }
 
-TEST(FarObj, placesPastTheRangeAreRefusedWithTheLine) {
+TEST(FarObj, positionsPastTheRangeAreRefusedWithTheLine) {
     for (const std::string word : {"1e101", "-3e200"})
         expectFailure(Failure::input, {"bad.obj:2", word, "1e+100"},
                       [&] { parseObj("v 0 0 0\nv 0 " + word + " 0\nv 0 0 1\nf 1 2 3\n", "bad.obj"); });

@@ -22,7 +22,7 @@ void expectUriRefused(Failure failure, const Json& uri, const std::vector<std::s
     expectFailure(failure, all, [&] { readCage(folder / "scene/a.gltf"); });
 }
 
-TEST(GltfBytes, buffersElsewhere) {
+TEST(GltfBytes, refuseBuffersOutsideTheFolder) {
     for (const std::string uri : {"../secret.bin", "%2e%2e/secret.bin", "a/../../secret.bin", "./.././secret.bin", "..",
                                   ".", "", "/etc/hostname"})
         expectUriRefused(Failure::input, uri, {"own folder"});
@@ -31,7 +31,7 @@ TEST(GltfBytes, buffersElsewhere) {
     expectUriRefused(Failure::input, nullptr, {"buffers/0 has no uri"});
 }
 
-TEST(GltfBytes, buffersOfAnotherLength) {
+TEST(GltfBytes, refuseBuffersThatAreTooShort) {
     const std::string header = "data:application/octet-stream;base64,", bytes = validFile().bytes;
     expectUriRefused(Failure::input, header + base64(bytes.substr(4)), {"buffers/0", "44 bytes of 48"});
     expectUriRefused(Failure::input, header + "////%%%%", {"buffers/0", "3 bytes of 48"});
@@ -50,7 +50,7 @@ TEST(GltfBytes, buffersOfAnotherLength) {
 
 // --- broken bytes ------------------------------------------------------------------------------------------------
 
-TEST(GltfBytes, binaryFilesThatAreCutOff) {
+TEST(GltfBytes, refuseBinaryFilesThatAreCutOff) {
     const TemporaryFolder folder;
     const std::string file = rich().glb();
     for (std::size_t length = 0; length < file.size(); length += 16) {
@@ -61,7 +61,7 @@ TEST(GltfBytes, binaryFilesThatAreCutOff) {
     EXPECT_TRUE(isRead(folder / "a.glb"));
 }
 
-TEST(GltfBytes, binaryFilesWithOtherHeaders) {
+TEST(GltfBytes, refuseBinaryFilesWithWrongHeaders) {
     const TemporaryFolder folder;
     const std::string file = rich().glb();
     const std::uint32_t jsonLength = *reinterpret_cast<const std::uint32_t*>(&file[12]);
@@ -75,7 +75,7 @@ TEST(GltfBytes, binaryFilesWithOtherHeaders) {
         }
 }
 
-TEST(GltfBytes, binaryFilesWithOtherLetters) {
+TEST(GltfBytes, neverCrashOnFlippedBytes) {
     const TemporaryFolder folder;
     const std::string file = rich().glb();
     std::mt19937 random(7);

@@ -57,7 +57,7 @@ double sixVolumes(const Cage& cage) {
 }
 
 /// In the world.
-vec3 placeOf(const Cage& cage, std::size_t vertex) { return cage.coordinates.toWorld(cage.positions[vertex]); }
+vec3 positionOf(const Cage& cage, std::size_t vertex) { return cage.coordinates.toWorld(cage.positions[vertex]); }
 
 void expectNear(const vec3& p, const dvec3& expected, double tolerance = 1e-6) {
     EXPECT_LT(glm::length(dvec3(p) - expected), tolerance)
@@ -140,9 +140,9 @@ TEST(GltfCage, standsWhereItsNodesStand) {
     const Cage cage = readFileOf(file);
     ASSERT_EQ(cage.positions.size(), 3u);
     // (x, y, z) -> (x + 1, 2 y + 2, 4 z + 3) -> (10 - y, x, z) -> (x / 2, y + 100, z)
-    expectNear(placeOf(cage, 0), {4, 101, 3});
-    expectNear(placeOf(cage, 1), {4, 102, 3});
-    expectNear(placeOf(cage, 2), {3, 101, 3});
+    expectNear(positionOf(cage, 0), {4, 101, 3});
+    expectNear(positionOf(cage, 1), {4, 102, 3});
+    expectNear(positionOf(cage, 2), {3, 101, 3});
 }
 
 TEST(GltfCage, looksOutwardsThroughAMirror) {
@@ -190,14 +190,14 @@ TEST(GltfCage, primitivesOfOneMeshGrowTogetherAndNodesDoNot) {
     EXPECT_EQ(cage.parts[3].firstFace, 3u);
 }
 
-TEST(GltfCage, bothZerosAreOnePlace) {
+TEST(GltfCage, bothZerosAreOnePosition) {
     GltfFile file;
     file.addMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 1, -0.0f}, {1, -0.0f, 0}, {1, 1, 0}}, {0, 1, 2, 3, 4, 5});
     file.addNode({{"mesh", 0}});
     EXPECT_EQ(readFileOf(file).positions.size(), 4u);
 }
 
-TEST(GltfCage, leavesOutDegenerateTrianglesAndSaysSo) {
+TEST(GltfCage, skipsDegenerateTrianglesWithAWarning) {
     GltfFile file = triangle();
     file.addMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, 0}}, {0, 1, 2, 0, 1, 3, 2, 2, 1});
     file.json["nodes"][0]["mesh"] = 1;
@@ -213,7 +213,7 @@ TEST(GltfCage, takesOnlyTheSceneThatIsShown) {
     file.json["scenes"].push_back({{"nodes", {1}}});
     EXPECT_EQ(readFileOf(file).positions[0], vec3(0, 0, 0));
     file.json["scene"] = 1;
-    EXPECT_EQ(placeOf(readFileOf(file), 0), vec3(5, 0, 0));
+    EXPECT_EQ(positionOf(readFileOf(file), 0), vec3(5, 0, 0));
     file.json.erase("scene"), file.json.erase("scenes");
     EXPECT_EQ(readFileOf(file).faceCount(), 2u);
 }
@@ -272,7 +272,7 @@ TEST(GltfCage, pointsAndLinesAreNoSurface) {
     expectFailure(Failure::input, {"no triangles"}, [&] { readFileOf(file, warnings.warn()); });
 }
 
-TEST(GltfCage, neverLooksAtPicturesAndForeignWords) {
+TEST(GltfCage, neverReadsPicturesAndUnknownMembers) {
     GltfFile file = triangle();
     file.json["images"] = {{{"uri", "../not-there.png"}}, {{"bufferView", 999}, {"mimeType", "image/png"}}, 7};
     file.json["textures"] = "nonsense";

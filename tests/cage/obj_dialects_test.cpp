@@ -125,8 +125,8 @@ TEST(ObjFaces, ofNoAreaAndNonManifoldOnesAreKept) {
 
 // --- creases -------------------------------------------------------------------------------------------------------
 
-// Two squares that share an edge but no vertex: 1-2 of the first is at the place of 4-7 of the second.
-TEST(ObjCreases, mayNameAnEdgeByVerticesAtTheSamePlace) {
+// Two squares that share an edge but no vertex: 1-2 of the first is at the positions of 4-7 of the second.
+TEST(ObjCreases, mayNameAnEdgeByVerticesAtTheSamePosition) {
     const std::string apart = kSquare + "v 1 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nf 1 2 3 4\nf 5 6 7 8\n";
     EXPECT_EQ(parseSilently(apart + "t crease 2/1/0 1 2 3\n").creaseEdges, (Indices{1, 2}));
     const Cage cage = parseSilently(apart + "t crease 2/1/0 1 7 3\n");

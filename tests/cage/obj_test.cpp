@@ -249,7 +249,7 @@ TEST(ObjLoader, warnsOfRulesThatDiffer) {
     EXPECT_TRUE(warnings.has("line 6"));
 }
 
-TEST(ObjLoader, isSilentAboutWhatSubdivisionNeedsNot) {
+TEST(ObjLoader, doesNotWarnOfLinesThatSubdivisionIgnores) {
     EXPECT_NO_THROW(parse("mtllib a.mtl\n" + kSquare + "s off\ns 1\nf 1 2 3 4\n"));
 }
 
@@ -304,7 +304,7 @@ TEST(ObjWriter, aNameCannotBreakItsLine) {
     EXPECT_EQ(readCage(folder / "a.obj").faceCount(), 6u);
 }
 
-TEST(ProductionCages, load) {
+TEST(ProductionCages, loadWithoutWarningsAndWithTheirCounts) {
     const std::string folder = productionFolder();
     if (folder.empty()) GTEST_SKIP() << "no production meshes; set RELIEF_DATA to their folder";
     const auto expectCounts = [&](const std::string& name, std::uint64_t faces, std::uint64_t vertices,

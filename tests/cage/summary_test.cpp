@@ -70,7 +70,7 @@ TEST(Summary, findsNonManifoldEdges) {
     EXPECT_EQ(summarize(moebiusStrip()).nonManifoldEdgeCount, 1u);
 }
 
-TEST(Summary, knowsValences) {
+TEST(Summary, countsValences) {
     EXPECT_EQ(summarize(torusWithSeams()).irregularVertexCount, 0u);
     EXPECT_EQ(summarize(triangleTorus()).irregularVertexCount, 0u);
     EXPECT_EQ(summarize(icosahedron()).irregularVertexCount, 12u);
@@ -86,7 +86,7 @@ TEST(Summary, sortsFacesBySize) {
     EXPECT_FALSE(mixedFaces().isAllTriangles());
 }
 
-TEST(Summary, leavesUnusedVerticesOutOfTheBounds) {
+TEST(Summary, ignoresUnusedVerticesInTheBounds) {
     Cage cage = cube();
     cage.positions.emplace_back(100, 0, 0);
     EXPECT_EQ(summarize(cage).unusedVertexCount, 1u);

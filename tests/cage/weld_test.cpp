@@ -76,7 +76,7 @@ TEST(Weld, leavesSeamsOnlyWhereTextureCoordinatesDiffer) {
     EXPECT_EQ(summarize(weld(takenApart(hillyGrid()), 0).cage).seamEdgeCount, 0u);
 }
 
-TEST(Weld, leavesCagesAloneThatAreWhole) {
+TEST(Weld, doesNotChangeCagesThatAreWhole) {
     for (const NamedCage& named : allCages()) {
         if (named.name.find("ollapsed") != std::string::npos) continue; // points that coincide by intent
         const WeldedCage welded = weld(named.cage, 0);
@@ -144,7 +144,7 @@ TEST(Weld, theSharpestOfTagsThatMeetHolds) {
     EXPECT_EQ(std::ranges::count(welded.cage.creaseSharpness, 2.0f), 3);
 }
 
-TEST(Weld, refusesDistancesThatAreNone) {
+TEST(Weld, refusesDistancesBelowZeroAndNan) {
     for (const double distance : {-1.0, double(NAN)})
         expectFailure(Failure::usage, {"0 or more"}, [&] { weld(cube(), distance); });
 }

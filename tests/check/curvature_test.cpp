@@ -145,7 +145,7 @@ TEST(CurvatureReport, findsASphereThatIsTurnedInsideOut) {
     EXPECT_NEAR(Sheet(5, sphere).report().lowestFactor, 3.5, 1e-5) << "outward there is always room";
 }
 
-TEST(CurvatureReport, measuresWhatFirstOrderNormalsLeaveOut) {
+TEST(CurvatureReport, measuresWhatFirstOrderNormalsIgnore) {
     // Across a cylinder of radius 1: slope d by arc length, first order n - d t, in full n - d / (1 + h) t.
     const double h = 0.5, d = 0.5;
     Sheet sheet(h, [](double x, double y) { return cylinderFrame(1, x, y); });
@@ -161,7 +161,7 @@ TEST(CurvatureReport, measuresWhatFirstOrderNormalsLeaveOut) {
     EXPECT_GE(sheet.report().maxNormalAngleAt.face, 8u);
 }
 
-TEST(CurvatureReport, leavesOutWhatHasNoTangentPlane) {
+TEST(CurvatureReport, skipsPointsWithoutATangentPlane) {
     Sheet sheet(0.1, [](double x, double y) { return sphereFrame(1, x, y); });
     sheet.results[7].pu = vec3(0);
     sheet.results[8].pu = sheet.results[8].pv;

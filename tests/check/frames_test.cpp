@@ -1,4 +1,4 @@
-// Errors that are put into the reference's own frames must come out again, with their places.
+// Errors that are put into the reference's own frames must be found again, at their locations.
 #include <cmath>
 #include <limits>
 
@@ -80,9 +80,9 @@ TEST(Frames, haveTheirErrorsSummedUp) {
     EXPECT_NEAR(e.tangent.max, 2e-3, 1e-6);
     EXPECT_NEAR(e.limitNormal.max, glm::degrees(0.1), 1e-3);
     EXPECT_LT(e.normal.max, 1e-4);
-    for (const SurfacePlace& place : {e.point.worst, e.tangent.worst, e.limitNormal.worst}) {
-        EXPECT_EQ(place.face, 7u);
-        EXPECT_EQ(place.uv, vec2(0.25f, 0.75f));
+    for (const SurfaceLocation& location : {e.point.worst, e.tangent.worst, e.limitNormal.worst}) {
+        EXPECT_EQ(location.face, 7u);
+        EXPECT_EQ(location.uv, vec2(0.25f, 0.75f));
     }
 }
 
@@ -168,7 +168,7 @@ TEST(Samples, coverTheFacesThatAreDrawn) {
 }
 
 // Quads: the eight corners of the cube are corners of end caps, a face has 4 of them. Triangles likewise.
-TEST(Samples, knowWhereThereIsNoCurvature) {
+TEST(Samples, markWhereThereIsNoCurvature) {
     const auto withoutCurvature = [](const Cage& cage, const SurfaceOptions& options, std::size_t budget = 0) {
         const SurfaceSamples samples = sampleEverywhere(buildSurface(cage, options), budget);
         std::vector<SampleQuery> found;
@@ -186,7 +186,7 @@ TEST(Samples, knowWhereThereIsNoCurvature) {
     EXPECT_EQ(withoutCurvature(hardCube(), {.isolation = 3}).size(), 0u) << "corner patches have a curvature";
 }
 
-TEST(Samples, alwaysReachTheInsideOfFaces) {
+TEST(Samples, areAlwaysInsideOfFacesToo) {
     EXPECT_EQ(sampleEverywhere(buildSurface(cube(), {.isolation = 1}), 0).queries.size(), 6u * 9);
     EXPECT_EQ(sampleEverywhere(buildSurface(icosahedron(), {.scheme = Scheme::loop, .isolation = 1}), 0).queries.size(),
               20u * 10);

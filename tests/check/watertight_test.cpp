@@ -75,7 +75,7 @@ TEST(Watertight, isNotAMeshWithOneCornerMovedByAnUlp) {
     EXPECT_EQ(w.openEdges, 4u) << "two of the triangle, two of its neighbours";
     EXPECT_EQ(w.tJunctions, 0u);
     EXPECT_EQ(w.largestGapUlps, 1);
-    EXPECT_NEAR(glm::length(w.worstPlace - vec3(1, 0.5f, 0.5f)), 0, 1e-6);
+    EXPECT_NEAR(glm::length(w.worstLocation - vec3(1, 0.5f, 0.5f)), 0, 1e-6);
     EXPECT_EQ(w.distinctPoints, 6u * 16 + 3);
 }
 
@@ -138,7 +138,7 @@ TEST(Watertight, countsAllTJunctionsOfALongSeamInAnyDirection) {
     EXPECT_EQ(checkWatertight(mesh, 300).tJunctions, 150u);
 }
 
-TEST(Watertight, knowsTheBoundaryOfTheCage) {
+TEST(Watertight, acceptsTheBoundaryOfTheCage) {
     const CapturedMesh mesh = openGrid(5, 3);
     const Watertightness w = checkWatertight(mesh, 16);
     EXPECT_TRUE(w.isWatertight());
@@ -150,7 +150,7 @@ TEST(Watertight, knowsTheBoundaryOfTheCage) {
     std::ranges::fill(unflagged.isOnBoundary, 0);
     EXPECT_EQ(checkWatertight(unflagged, 16).openEdges, 16u);
 
-    // One flag at a place is enough: a vertex that comes later without does not take it away.
+    // One flag at a position is enough: a vertex that comes later without does not take it away.
     CapturedMesh twice = mesh;
     const auto offset = std::uint32_t(mesh.positions.size());
     for (const vec3& p : mesh.positions) addVertex(twice, p, false);
@@ -159,14 +159,14 @@ TEST(Watertight, knowsTheBoundaryOfTheCage) {
 }
 
 // At a corner of one face a triangle has two sides on the boundary and the third between two of its vertices: with a
-// hidden segment elsewhere, as where boundaries touch, no count of edges tells that it has gone.
+// hidden segment elsewhere, as where boundaries meet, no count of edges shows that it is missing.
 TEST(Watertight, missesTrianglesThatAreNotThere) {
     CapturedMesh mesh = openGrid(3, 3);
     EXPECT_TRUE(checkWatertight(mesh, 12, 18).isWatertight());
     mesh.indices.erase(mesh.indices.begin(), mesh.indices.begin() + 3);
     mesh.positions[14] = mesh.positions[15]; // a segment of the boundary collapses
     const Watertightness w = checkWatertight(mesh, 12);
-    EXPECT_TRUE(w.isWatertight()) << "as far as edges tell: " << w.boundarySegments << " of 12";
+    EXPECT_TRUE(w.isWatertight()) << "by its edges alone: " << w.boundarySegments << " of 12";
     EXPECT_FALSE(checkWatertight(mesh, 12, 18).hasAllTriangles());
     EXPECT_FALSE(checkWatertight(mesh, 12, 18).isWatertight());
 }
@@ -194,7 +194,7 @@ TEST(Watertight, letsBoundarySegmentsCollapse) {
     EXPECT_TRUE(w.isWatertight());
 }
 
-TEST(Watertight, letsBoundariesLieInOnePlace) {
+TEST(Watertight, allowsBoundariesThatCoincide) {
     CapturedMesh mesh = openGrid(4, 1);
     CapturedMesh other = openGrid(4, 1);
     for (vec3& p : other.positions) p.z = 4 - p.z; // a mirror image along z = 2
@@ -225,7 +225,7 @@ TEST(Watertight, weldsBothZeros) {
     EXPECT_TRUE(checkWatertight(mesh, 0).isWatertight());
 }
 
-TEST(Watertight, isNotAMeshWithNumbersThatAreNone) {
+TEST(Watertight, refusesVerticesThatAreNotFinite) {
     for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
         CapturedMesh mesh = openGrid(3, 3);
         mesh.positions[5].y = bad;

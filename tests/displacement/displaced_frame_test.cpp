@@ -180,7 +180,7 @@ TEST(DisplacedFrames, HaveTheNormalOfTheirOwnPoints) {
         SCOPED_TRACE(family.name);
         const NormalErrors errors = compareWithDifferences(ReferenceSurface(family.cage, {family.scheme, 6}), map);
         EXPECT_LE(errors.fullRms, 0.05);
-        EXPECT_GE(errors.firstOrderRms, 0.4) << "the cage is too flat to tell the normals apart";
+        EXPECT_GE(errors.firstOrderRms, 0.4) << "the cage is too flat: the normals hardly differ";
     }
 }
 
@@ -202,7 +202,7 @@ TEST(DisplacedFrames, StayFiniteWhereTangentsOrTextureAreSingular) {
     }
 }
 
-// Without tangents that span a plane there is nothing to differentiate: the height's slope is left out.
+// Without tangents that span a plane there is nothing to differentiate: the height's slope is ignored.
 TEST(DisplacedFrames, KeepTheLimitNormalWhereTangentsAreParallel) {
     const ReferenceSurface sheet(boundaryGrid(2, 2), {Scheme::catmark, 4});
     const HeightMap map = wavyMap(0.2);

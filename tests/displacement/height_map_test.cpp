@@ -105,7 +105,7 @@ TEST(SampleHeight, approachesASmoothFunction) {
     EXPECT_LT(error(256), error(64) / 10); // second order: 16 times smaller
 }
 
-TEST(HeightMap, reachIsTheLargestHeight) {
+TEST(HeightMap, boundIsTheLargestHeight) {
     EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {0.25f, 1}, 0.5, 3, Wrap::repeat).heightBound(), 1.5);
     EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {-4, 1}, 0, -2, Wrap::repeat).heightBound(), 8);
     EXPECT_DOUBLE_EQ(makeHeightMap(2, 1, {2, 2}, 2, 5, Wrap::repeat).heightBound(), 0);

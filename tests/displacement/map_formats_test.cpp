@@ -36,7 +36,7 @@ TEST(Formats, keepAFlatMap) {
 }
 
 TEST(Bc4, hasTheBitsOfTheSpecification) {
-    // Two end points, then three bits a texel, the first texel lowest; red0 > red1: six values between.
+    // Two end points, then three bits per texel, the first texel lowest; red0 > red1: six values between.
     const std::array<std::uint8_t, 8> block{255, 0, 0b10'001'000, 0, 0, 0, 0, 0};
     const std::array<float, 16> values = decodeBc4(block);
     EXPECT_FLOAT_EQ(values[0], 1);        // 0: red0

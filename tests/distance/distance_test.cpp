@@ -110,7 +110,7 @@ TEST(Distance, ofOffsetCubesIsAtTheirFarCorners) {
     EXPECT_GE(d.hausdorff() + d.forth.coverage, 0.5);
     // Bottom: 1/2 everywhere. Top, in the middle of the other cube: the nearest wall or cap, by symmetry of 8 wedges
     // x <= y, x <= 1/2: 8 * integral of x^2 (1/2 - x) over 0..1/2 = 1/24. Walls: z below 1/2 is 1/2 - z away, 1/24
-    // of each of four; above they touch.
+    // of each of four; above they meet.
     EXPECT_NEAR(d.forth.rms, std::sqrt((0.25 + 1.0 / 24 + 4.0 / 24) / 6), 1e-3);
     EXPECT_NEAR(d.back.rms, d.forth.rms, 1e-3);
 }
@@ -118,7 +118,7 @@ TEST(Distance, ofOffsetCubesIsAtTheirFarCorners) {
 TEST(Distance, ofAWaveToThePlaneIsItsRms) {
     const auto wave = [](const dvec2& st) { return 0.01 * std::sin(20 * 3.14159265 * st.x); };
     const SampledDistance d = measureOneWay(sheet(400, wave).measured(50'000), flatSheet(1, 0).measured());
-    // sqrt(1/2), but weighted by the wave's own area: steep places, near zero, count for more (slope 0.628 at most).
+    // sqrt(1/2), but weighted by the wave's own area: steep parts, near zero, count for more (slope 0.628 at most).
     EXPECT_NEAR(d.rms, 0.01 * std::sqrt(0.5), 0.01 * 0.02);
     EXPECT_LT(d.rmsError, 0.002 * d.rms + 1e-6);
     EXPECT_NEAR(d.max, 0.01, 1e-5);

@@ -1,34 +1,15 @@
-// One device for all tests of a program, and the promise that the validation layer stays silent.
+// What tests that evaluate and draw surfaces on the device share.
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include "frame/frame.h"
+#include "on_device.h"
 
 namespace relief::test {
-
-inline Device& device() {
-    static Device instance;
-    return instance;
-}
 
 inline SurfaceSampler& sampler() {
     static SurfaceSampler instance(device());
     return instance;
 }
-
-/// A test whose end checks that Vulkan's validation layer, synchronization validation included, printed nothing.
-class OnDevice : public ::testing::Test {
-protected:
-    void SetUp() override {
-        ASSERT_TRUE(device().isValidating()) << "run with RELIEF_VALIDATE=1";
-        messagesBefore_ = device().validationMessages().size();
-    }
-    void TearDown() override { EXPECT_EQ(device().validationMessages().size(), messagesBefore_); }
-
-private:
-    std::size_t messagesBefore_ = 0;
-};
 
 /// Smooth, tileable, both signs: `waves` periods each way of the given amplitude in cage units.
 inline HeightMap sineMap(int side, double amplitude, int waves = 2) {

@@ -67,7 +67,7 @@ struct Errors {
 };
 
 /// The leaf patch at (face,u,v): derivatives of its rounded points grow with the power of its magnification.
-struct LeafPlace {
+struct LeafLocation {
     double magnification = 1;
     vec2 uv;
     std::uint32_t type = 0;
@@ -80,8 +80,8 @@ struct LeafPlace {
     }
 };
 
-LeafPlace leafOf(const Surface& surface, const SampleQuery& query) {
-    LeafPlace leaf{.uv = query.uv};
+LeafLocation leafOf(const Surface& surface, const SampleQuery& query) {
+    LeafLocation leaf{.uv = query.uv};
     vec2& uv = leaf.uv;
     std::uint32_t entry = surface.faces[query.face].root;
     for (; (entry & kLeafBit) == 0; leaf.magnification *= 2) {
@@ -116,12 +116,12 @@ Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis, const M
         const DisplacedFrame f = displacedFrame(reference, &map, int(queries[i].face), dvec2(queries[i].uv));
         const TexFrame tex = reference.texture(int(queries[i].face), dvec2(queries[i].uv));
         e.p = std::max(e.p, worst(f.limit.p, r.p) / side);
-        // Where the tangents are mended there is nothing to compare but the absence of NaN.
+        // Where the tangents are repaired there is nothing to compare but the absence of NaN.
         if (!f.limit.hasTangentPlane()) {
             EXPECT_NEAR(glm::length(r.m), 1, 1e-5) << c.name << " row " << i;
             continue;
         }
-        const LeafPlace leaf = leafOf(surface, queries[i]);
+        const LeafLocation leaf = leafOf(surface, queries[i]);
         const double k = leaf.magnification;
         e.first = std::max({e.first, worst(f.limit.pu, r.pu) / side / k, worst(f.limit.pv, r.pv) / side / k});
         if (!leaf.hasSecondDerivatives()) continue;
@@ -144,9 +144,9 @@ Errors compare(const Case& c, const HeightMap& map, bool isGenericBasis, const M
 
 class Frames : public OnDevice, public ::testing::WithParamInterface<Case> {};
 
-// OpenSubdiv's own tolerances are 5e-5 of the box for points, 5 times that for first and 25 times for second derivatives.
-// Single precision against double leaves less: a few units of rounding, magnified with the patch's depth for
-// derivatives.
+// OpenSubdiv's own tolerances are 5e-5 of the box for points, 5 times that for first and 25 times for second
+// derivatives. Single precision against double leaves less: a few units of rounding, magnified with the patch's depth
+// for derivatives.
 TEST_P(Frames, agreeWithTheReference) {
     const HeightMap map = sineMap(64, 0.05);
     const Errors e = compare(GetParam(), map, false);
@@ -256,7 +256,7 @@ TEST_F(Bases, specialisedPatchesEqualOpenSubdivsGenericBasis) {
         const std::vector<SampleResult> ours = sampler().sample(model, queries);
         const std::vector<SampleResult> theirs = sampler().sample(model, queries, {.isGenericBasis = true});
         for (std::size_t i = 0; i < queries.size(); ++i) {
-            const LeafPlace leaf = leafOf(surface, queries[i]);
+            const LeafLocation leaf = leafOf(surface, queries[i]);
             const double k = leaf.magnification;
             EXPECT_LT(worst(dvec3(theirs[i].p), ours[i].p), 5e-6) << named.name;
             EXPECT_LT(worst(dvec3(theirs[i].pu), ours[i].pu), 3e-5 * k) << named.name;

@@ -41,7 +41,7 @@ Difference difference(const Picture& a, const Picture& b) {
     return {std::sqrt(sum.color / (3 * pixels)), std::sqrt(sum.coverage / pixels)};
 }
 
-// The paths sample the surface at the same places and join them by other diagonals: at this rate that is a few
+// The paths sample the surface at the same locations and join them by other diagonals: at this rate that is a few
 // thousandths of a normal, and a sliver of a pixel along the outline.
 TEST_F(Pictures, ofTessellationAndGridAgree) {
     if (!device().traits().hasTessellation) GTEST_SKIP() << "no tessellation shaders";
@@ -161,7 +161,7 @@ TEST_F(Pictures, areDrawnInBatchesThatSuitTheDevice) {
     const Cage cage = torusWithSeams();
     const Surface surface = buildSurface(cage, {.isolation = 2});
     const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
-    const DrawPlan plan = planPatches(model, {uniformRates(model, 9)}, 1000); // 100 vertices a face
+    const DrawPlan plan = planPatches(model, {uniformRates(model, 9)}, 1000); // 100 vertices per face
     EXPECT_EQ(plan.faces.size(), 48u);
     EXPECT_EQ(plan.batches.size(), 5u);
     EXPECT_EQ(plan.triangleCount, 48u * 2 * 81);

@@ -82,7 +82,7 @@ inline std::string drawGolden(const SceneFolder& scenes, const std::string& name
     return drawn;
 }
 
-/// Of a picture in the build folder with the committed golden; nothing where they have not the same shape.
+/// Compares a picture in the build folder with the committed golden; empty where their sizes differ.
 inline std::optional<Comparison> compareWithGolden(const std::string& drawn, const std::string& golden) {
     const Image now = readImage(drawn), before = readImage(committedPath(golden));
     const bool hasShape = now.width == before.width && now.height == before.height && now.channels == before.channels;

@@ -1,6 +1,6 @@
 // Tessellation against grid. Both evaluate the surface at the same points when every edge has the same rate, but join
 // them by other diagonals, so between the points interpolated positions and normals differ by the twist of one cell: of
-// second order in its size. Pixels of the outline are left out of the colors and counted as coverage instead.
+// second order in its size. Pixels of the outline are excluded from the colors and counted as coverage instead.
 #include "scenes.h"
 
 namespace relief::test {

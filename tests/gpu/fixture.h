@@ -1,32 +1,23 @@
-// One device for all tests of the program, and the promise that the validation layer stays silent.
+// What the tests of the device share.
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include "gpu/gpu.h"
+#include "on_device.h"
 
 namespace relief::test {
 
-inline Device& device() {
-    static Device instance;
-    return instance;
-}
-
-/// A test whose end checks that the validation layer printed nothing and that all memory was given back.
-class OnDevice : public ::testing::Test {
+/// A test whose end also checks that all memory of the device was given back.
+class OnDeviceWithoutLeaks : public OnDevice {
 protected:
     void SetUp() override {
-        ASSERT_TRUE(device().isValidating()) << "run with RELIEF_VALIDATE=1";
-        messagesBefore_ = device().validationMessages().size();
+        OnDevice::SetUp();
         bytesBefore_ = device().allocatedBytes();
     }
     void TearDown() override {
-        EXPECT_EQ(device().validationMessages().size(), messagesBefore_);
+        OnDevice::TearDown();
         EXPECT_EQ(device().allocatedBytes(), bytesBefore_);
     }
 
 private:
-    std::size_t messagesBefore_ = 0;
     std::uint64_t bytesBefore_ = 0;
 };
 

@@ -8,7 +8,7 @@
 namespace relief::test {
 namespace {
 
-class Memory : public OnDevice {};
+class Memory : public OnDeviceWithoutLeaks {};
 
 TEST_F(Memory, manySmallBuffersShareABlock) {
     const std::size_t blocks = device().memory().blockCount();

@@ -67,7 +67,7 @@ TexelBuffer uploadNumbers(Device& on, const std::vector<std::uint32_t>& words) {
     return uploadTexels(on, {.name = "numbers"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(words)));
 }
 
-class Tables : public OnDevice {};
+class Tables : public OnDeviceWithoutLeaks {};
 
 TEST_F(Tables, areReadAsTexelsAndAsStorageBuffers) {
     for (const TableAccess access : {TableAccess::texelBuffers, TableAccess::storageBuffers})

@@ -9,7 +9,7 @@
 namespace relief::test {
 namespace {
 
-class Uploads : public OnDevice {};
+class Uploads : public OnDeviceWithoutLeaks {};
 
 constexpr VkBufferUsageFlags kReadable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
 

@@ -169,7 +169,7 @@ TEST(Comparison, namesRowsWithoutPartnerAndDifferentMachines) {
 
 // --- the report
 
-TEST(Plot, hasTicksWithUnitsAndNoNumbersThatAreNone) {
+TEST(Plot, hasTicksWithUnitsAndOnlyFiniteNumbers) {
     const std::string svg =
         drawFigure({.title = "A <b> & c",
                     .xLabel = "triangles",

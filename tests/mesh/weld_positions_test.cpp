@@ -1,4 +1,4 @@
-// One vertex a position, in files that have several numbers a corner and in those that have one.
+// One vertex per position, in files that have several numbers per corner and in those that have one.
 #include <map>
 #include <set>
 
@@ -8,7 +8,7 @@
 namespace relief::test {
 namespace {
 
-/// A cage as a dense mesh with hard edges: one vertex a corner.
+/// A cage as a dense mesh with hard edges: one vertex per corner.
 DenseMesh faceted(const Cage& cage) {
     Cage hard = cage;
     hard.normals.clear(), hard.normalCorners.clear();
@@ -38,8 +38,8 @@ TEST(WeldPositions, closesClosedCages) {
         const DenseMesh welded = weldPositions(split);
         EXPECT_EQ(openEdges(welded.indices), 0u);
         EXPECT_TRUE(welded.texCoords.empty());
-        std::set<std::tuple<float, float, float>> places;
-        for (const vec3& p : welded.positions) EXPECT_TRUE(places.insert({p.x, p.y, p.z}).second);
+        std::set<std::tuple<float, float, float>> positions;
+        for (const vec3& p : welded.positions) EXPECT_TRUE(positions.insert({p.x, p.y, p.z}).second);
         ASSERT_EQ(welded.normals.size(), welded.positions.size());
         for (const vec3& n : welded.normals) EXPECT_NEAR(glm::length(n), 1, 1e-5);
     }

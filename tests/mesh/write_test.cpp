@@ -114,7 +114,7 @@ TEST(WritePly, holdsTheArraysBitByBit) {
     expectPly(sheet(300), "property float s\nproperty float t\n"); // longer than the buffer
 }
 
-TEST(WritePly, leavesOutTextureCoordinatesThatAreNotThere) { expectPly(squareWithoutTexCoords(), ""); }
+TEST(WritePly, omitsTextureCoordinatesThatAreNotThere) { expectPly(squareWithoutTexCoords(), ""); }
 
 // --- OBJ --------------------------------------------------------------------------------------------------------
 
@@ -162,7 +162,7 @@ TEST(WriteDenseObj, readsBackToTheSameBitsWhateverTheNumbers) {
     expectObjRoundTrip(mesh);
 }
 
-TEST(WriteDenseObj, leavesOutTrianglesThatNameAVertexTwice) {
+TEST(WriteDenseObj, omitsTrianglesThatNameAVertexTwice) {
     DenseMesh mesh = square();
     mesh.indices = {0, 0, 1, 0, 1, 2, 1, 2, 2, 3, 1, 3, 0, 2, 3};
     EXPECT_EQ(parseObj(written(mesh, "a.obj"), "a.obj").corners, square().indices);
@@ -218,7 +218,7 @@ struct Glb {
     }
 };
 
-TEST(WriteGlb, holdsTheMeshAsGltfWantsIt) {
+TEST(WriteGlb, holdsTheMeshAsGltfRequires) {
     const DenseMesh mesh = square();
     const Glb glb(written(mesh, "a.glb"));
     const nlohmann::json& attributes = glb.primitive().at("attributes");
@@ -259,14 +259,14 @@ TEST(WriteGlb, isOneNodeWithOneDoubleSidedMesh) {
     EXPECT_EQ(json.at("materials").at(0).at("doubleSided"), true);
 }
 
-TEST(WriteGlb, leavesOutTextureCoordinatesThatAreNotThere) {
+TEST(WriteGlb, omitsTextureCoordinatesThatAreNotThere) {
     const Glb glb(written(squareWithoutTexCoords(), "a.glb"));
     EXPECT_EQ(glb.primitive().at("attributes").size(), 2u);
     EXPECT_EQ(glb.json.at("accessors").size(), 3u);
     EXPECT_EQ(glb.bytes.size(), 4 * (12u + 12u) + 2 * 12u);
 }
 
-TEST(WriteGlb, leavesOutTrianglesThatNameAVertexTwice) {
+TEST(WriteGlb, omitsTrianglesThatNameAVertexTwice) {
     DenseMesh mesh = square();
     mesh.indices = {0, 0, 1, 0, 1, 2, 1, 2, 2, 3, 1, 3, 0, 2, 3};
     const Glb glb(written(mesh, "a.glb"));

@@ -158,15 +158,15 @@ TEST_F(Motion, layersAreTheSurfacesOwn) {
     const ReferenceSurface reference(scene.cage, {.isolation = 3});
     Renderer renderer(device(), {.width = kSide, .height = kSide});
     const Picture picture = renderer.render(scene.model, scene.options);
-    const double reach = scene.map.heightBound();
+    const double heightBound = scene.map.heightBound();
     eachPixel(picture, [&](const dvec2& pixel, const float* values) {
         const dvec3 n(values[kLayerNormal], values[kLayerNormal + 1], values[kLayerNormal + 2]);
         EXPECT_NEAR(glm::length(n), 1, 1e-5);
-        EXPECT_LE(std::abs(values[kLayerHeight]), reach * 1.001);
+        EXPECT_LE(std::abs(values[kLayerHeight]), heightBound * 1.001);
         EXPECT_LT(values[kLayerFace], float(scene.cage.faceCount()));
         // The height that the map has at the layer's texture coordinates; triangles are flat between their corners.
         const dvec2 st(values[kLayerTexCoords], values[kLayerTexCoords + 1]);
-        EXPECT_NEAR(values[kLayerHeight], sampleHeight(scene.map, st).h, 0.03 * reach);
+        EXPECT_NEAR(values[kLayerHeight], sampleHeight(scene.map, st).h, 0.03 * heightBound);
         const dvec3 seen = pointAt(scene.options.camera, pixel.x, pixel.y, values[kLayerDepth]);
         const Bounds& box = scene.poser.bounds();
         EXPECT_TRUE(glm::all(glm::lessThan(box.lower, seen)) && glm::all(glm::lessThan(seen, box.upper)));

@@ -19,12 +19,6 @@ bool isSeen(const Camera& camera, const dvec3& point, double aspect) {
            std::abs(glm::dot(d, right)) < half * aspect;
 }
 
-Bounds boundsOf(std::span<const dvec3> points) {
-    Bounds bounds;
-    for (const dvec3& p : points) bounds.add(p);
-    return bounds;
-}
-
 TEST(SceneCamera, isPlacedInTheWorld) {
     SceneDesc scene;
     scene.camera.lookAt = dvec3(1000, 0, 0);
@@ -38,18 +32,18 @@ TEST(SceneCamera, isPlacedInTheWorld) {
 TEST(SceneCamera, ofATurnSeesAllPointsFromAllSides) {
     constexpr double kAspect = 1.5;
     const CameraOptions held = holdAllPoints({}, kPoints, kAspect, true);
-    EXPECT_EQ(*held.lookAt, boundsOf(kPoints).center());
+    EXPECT_EQ(*held.lookAt, computeBounds(kPoints).center());
     for (int degrees = 0; degrees < 360; degrees += 15) {
         CameraOptions side = held;
         side.azimuth += degrees;
-        const Camera camera = placeCamera(side, boundsOf(kPoints));
+        const Camera camera = placeCamera(side, computeBounds(kPoints));
         for (const dvec3& p : kPoints) EXPECT_TRUE(isSeen(camera, p, kAspect)) << degrees;
     }
 }
 
 TEST(SceneCamera, thatIsHeldIsTheOneThatFramesThePoints) {
     const Camera framed = frameCamera(kPoints, {}, 1);
-    const Camera held = placeCamera(holdAllPoints({}, kPoints, 1, false), boundsOf(kPoints));
+    const Camera held = placeCamera(holdAllPoints({}, kPoints, 1, false), computeBounds(kPoints));
     EXPECT_LT(glm::length(framed.eye - held.eye), 1e-12);
     EXPECT_EQ(framed.target, held.target);
     EXPECT_NEAR(framed.nearDistance, held.nearDistance, 1e-12);

@@ -48,7 +48,7 @@ TEST(FlatArrays, HoldTheReferencesPositionsAndTextureCoordinates) {
     }
 }
 
-TEST(FlatArrays, TreesReachAPatchOfTheirFaceEverywhere) {
+TEST(FlatArrays, TreesLeadToAPatchOfTheirFaceEverywhere) {
     for (const Family& family : allFamilies()) {
         SCOPED_TRACE(family.name);
         const Surface surface = buildSurface(family.cage, {family.scheme, 4});
@@ -108,9 +108,9 @@ TEST(RefinePoints, ACageShrunkToOnePointStaysThatPoint) {
     for (const Family& family : allFamilies()) {
         SCOPED_TRACE(family.name);
         const Surface surface = buildSurface(family.cage, {family.scheme, 5});
-        const vec3 place(1234.567F, -0.1F, 1e-3F);
-        const std::vector<vec3> cage(surface.controlPointCount, place);
-        for (const vec3& p : refinePoints(surface, cage)) ASSERT_EQ(p, place);
+        const vec3 position(1234.567F, -0.1F, 1e-3F);
+        const std::vector<vec3> cage(surface.controlPointCount, position);
+        for (const vec3& p : refinePoints(surface, cage)) ASSERT_EQ(p, position);
     }
 }
 

@@ -43,7 +43,7 @@ TEST_P(ProductionCage, FlatArraysHoldTheReferencesPositions) {
 
 TEST_P(ProductionCage, IsExactAtPatchCorners) {
     const int gridSize = 4;
-    // Semi-sharp creases would cost the oracle a level each.
+    // The oracle would need one level more per unit of sharpness.
     for (float& sharpness : cage.creaseSharpness) sharpness = 10;
     const Oracle oracle(cage, Scheme::catmark, gridSize);
     const ReferenceSurface reference(cage, {Scheme::catmark, oracle.levels()});

@@ -32,7 +32,7 @@ private:
     Surface surface_;
     std::vector<vec3> points_;
     FarTables tables_;                                  ///< for the bases that are not written out here
-    std::vector<Far::PatchTable::PatchHandle> handles_; ///< one a patch
+    std::vector<Far::PatchTable::PatchHandle> handles_; ///< one per patch
 };
 
 } // namespace relief

@@ -44,7 +44,7 @@ std::vector<std::uint64_t> edgesByIncidences(const Cage& cage) {
     return counts;
 }
 
-TEST(EdgeIncidenceList, areAsManyAsTheCageSays) {
+TEST(EdgeIncidenceList, areAsManyAsTheCageHas) {
     for (const test::NamedCage& named : test::allCages()) {
         const CageSummary s = summarize(named.cage);
         if (s.quadCount != s.faceCount || s.holeCount > 0) continue;

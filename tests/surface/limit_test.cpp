@@ -99,8 +99,8 @@ double worstInCaps(const Family& family, const Oracle& oracle, int isolation) {
     return worst / sizeOf(family.cage);
 }
 
-// OpenSubdiv's tolerance for points, 5e-5, is out of an end cap's reach at usual isolations: what can be promised is
-// the measured size of the error at one isolation and that each level takes a third of it away.
+// OpenSubdiv's tolerance for points, 5e-5, is more precise than end caps are at usual isolations: what can be promised
+// is the measured size of the error at one isolation and that each level takes a third of it away.
 TEST(LimitPositions, CloseInOnTheLimitInsideEndCaps) {
     struct Promise {
         Family family;
@@ -131,7 +131,7 @@ TEST(LimitPositions, CloseInOnTheLimitInsideEndCaps) {
 }
 
 // Stencils stay inside one polynomial: of the cell of level 2 that their centre lies in, or, beside an extraordinary
-// vertex of quads, of level 3 or 4. (Triangles of level 4 are too small: there, end caps of level 2 are left out.)
+// vertex of quads, of level 3 or 4. (Triangles of level 4 are too small: there, end caps of level 2 are skipped.)
 TEST(LimitDerivatives, AreExactOutsideEndCaps) {
     const int gridSize = 64, cell = 16;
     for (const Family& family : allFamilies()) {

@@ -211,7 +211,7 @@ dvec2 Oracle::texCoord(int face, int i, int j) const {
     for (int k = 0; k < faces.size(); ++k)
         if (cageFaceOf_[last][faces[k]] == cageFaces_[face])
             return texCoords_[level.GetFaceFVarValues(faces[k])[corners[k]]];
-    ADD_FAILURE() << "face " << face << " does not reach its own grid point " << i << ' ' << j;
+    ADD_FAILURE() << "face " << face << " has no corner at its own grid point " << i << ' ' << j;
     return {};
 }
 

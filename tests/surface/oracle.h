@@ -1,4 +1,4 @@
-// The independent reference: uniform refinement in double precision with limit masks. It knows the limit surface only
+// The independent reference: uniform refinement in double precision with limit masks. It has the limit surface only
 // at the vertices of its last level, that is at dyadic (u,v), but there it is exact.
 #pragma once
 
@@ -14,7 +14,7 @@ namespace Far = OpenSubdiv::Far;
 
 class Oracle {
 public:
-    /// Knows points at multiples of 1 / gridSize, gridSize a power of two.
+    /// Makes points at multiples of 1 / gridSize, gridSize a power of two.
     Oracle(const Cage& cage, Scheme scheme, int gridSize);
 
     /// Limit position of the face's grid point (i,j), i and j in 0..gridSize (i + j <= gridSize for triangles).

@@ -181,9 +181,9 @@ struct Counts {
 std::ostream& operator<<(std::ostream& out, const Counts& c) { return out << c.edges << " edges, " << c.corners; }
 
 Counts incidenceCounts(const Surface& surface) {
-    const auto isTouched = [](const auto& owned) { return owned.incidenceCount > 0; };
-    return {int(std::count_if(surface.edges.begin(), surface.edges.end(), isTouched)),
-            int(std::count_if(surface.corners.begin(), surface.corners.end(), isTouched))};
+    const auto hasIncidences = [](const auto& owned) { return owned.incidenceCount > 0; };
+    return {int(std::count_if(surface.edges.begin(), surface.edges.end(), hasIncidences)),
+            int(std::count_if(surface.corners.begin(), surface.corners.end(), hasIncidences))};
 }
 
 Counts incidenceCounts(const Cage& cage, int isolation = 3, Scheme scheme = Scheme::catmark) {
@@ -241,7 +241,7 @@ TEST(Incidences, NameAllFansOfAVertex) {
     EXPECT_EQ(faces, (std::vector<std::uint32_t>{1, 3, 5, 6, 8, 10}));
 }
 
-TEST(Incidences, LeaveHolesOut) {
+TEST(Incidences, OmitHoles) {
     const Surface surface = buildSurface(withHoles(withCreases(prism(4), {4, 5, 6, 7}, 10), {5}), {});
     for (const Incidence& incidence : surface.incidences) EXPECT_NE(incidence.face, 5u);
     for (const Edge& edge : surface.edges) EXPECT_LE(edge.incidenceCount, 1u);
@@ -263,7 +263,7 @@ TEST(Owners, FormTheTopologyOfTheCage) {
     EXPECT_EQ(eulerCharacteristic(buildSurface(pentagons(), {})), 1);
 }
 
-TEST(Owners, KnowWhetherTheSurfaceIsClosed) {
+TEST(Owners, FindWhetherTheSurfaceIsClosed) {
     EXPECT_TRUE(buildSurface(prism(5), {}).isClosed);
     EXPECT_TRUE(buildSurface(test::torusWithSeams(), {}).isClosed);
     EXPECT_TRUE(buildSurface(icosahedron(), {Scheme::loop, 3}).isClosed);

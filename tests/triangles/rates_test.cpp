@@ -1,4 +1,4 @@
-// Rates, mips, bounds and what is left out of a picture.
+// Rates, mips, bounds and the faces that a picture omits.
 #include <algorithm>
 #include <random>
 
@@ -75,7 +75,7 @@ TEST_F(Rates, boundsFollowTheMapAndNotItsExtremes) {
     EXPECT_LE(count, 40); // of 256
 }
 
-// What the camera sees of a face that is left out would be missing from the picture.
+// What the camera sees of a face that is omitted would be missing from the picture.
 TEST_F(Rates, hiddenFacesHaveNoPointInView) {
     const Subject s{torusWithSeams(16, 12), sineMap(64, 0.2, 4)};
     const Camera camera = frameCamera({{dvec3(2, 0, 0), dvec3(2.5, 0.5, 0.5)}}, {}, 1);
@@ -93,7 +93,7 @@ TEST_F(Rates, hiddenFacesHaveNoPointInView) {
 }
 
 // Seen from far away nothing is out of view: what is hidden faces away, in every point and with its displacement.
-TEST_F(Rates, facesThatAreLeftOutFaceAwayEverywhere) {
+TEST_F(Rates, hiddenFacesFaceAwayEverywhere) {
     for (const double height : {0.0, 0.01, 0.3}) {
         const Subject s{torusWithSeams(24, 18), sineMap(128, height, 4)};
         const std::vector<dvec3> points(s.cage.positions.begin(), s.cage.positions.end());
@@ -122,7 +122,7 @@ TEST_F(Rates, facesThatFaceAwayAreSeenWhereTheNearPlaneCuts) {
     EXPECT_EQ(hiddenCount(), 0);
 }
 
-TEST_F(Rates, picturesTellHowManyFacesAreHidden) {
+TEST_F(Rates, picturesReportHowManyFacesAreHidden) {
     const Subject s{torusWithSeams(16, 12), sineMap(64, 0.1)};
     Renderer renderer(device(), {.width = 64, .height = 64, .shadowSide = 64});
     RenderOptions options;
@@ -148,20 +148,20 @@ TEST_F(Rates, seeHeightsBetweenTheirSamples) {
 }
 
 TEST_F(Rates, chooseTheMipWhoseTexelsAreAsLargeAsSegments) {
-    const Subject s{boundaryGrid(4, 4), sineMap(256, 0.1, 61)}; // about four texels a wave, 64 texels a face
+    const Subject s{boundaryGrid(4, 4), sineMap(256, 0.1, 61)}; // about four texels per wave, 64 texels per face
     const TriangleOptions coarse{.path = Path::dice, .rate = 4}, fine{.path = Path::dice, .rate = 64};
     EXPECT_FALSE(rater().rates(s.model, fine, {}).hasMips());
     const EdgeRates rates = rater().rates(s.model, coarse, {});
     ASSERT_EQ(rates.cornerLevels.size(), s.model.cornerFlags.size());
     for (const float level : rates.cornerLevels) EXPECT_NEAR(level, 4, 0.6);
 
-    const auto reach = [&](const EdgeRates& r) {
+    const auto largestHeight = [&](const EdgeRates& r) {
         float most = 0;
         for (const vec3& p : dicer().diceToHost(s.model, r).positions) most = std::max(most, std::abs(p.y));
         return most;
     };
-    EXPECT_LT(reach(rates), 1e-3f);
-    EXPECT_GT(reach({rates.rates, rates.spacing, {}}), 0.02f);
+    EXPECT_LT(largestHeight(rates), 1e-3f);
+    EXPECT_GT(largestHeight({rates.rates, rates.spacing, {}}), 0.02f);
 }
 
 // The next pair of samples is born where its neighbours are.

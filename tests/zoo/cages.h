@@ -1,4 +1,4 @@
-// The zoo's cages: all of tests/meshes.h, and what those leave out, each named after what it stresses.
+// The zoo's cages: all of tests/meshes.h, and what those lack, each named after what it stresses.
 #pragma once
 
 #include "meshes.h"
@@ -91,8 +91,8 @@ inline Cage withHoles(Cage cage, Indices holes) {
 
 // --- degenerate --------------------------------------------------------------------------------------------------
 
-/// Vertices `which` all at the place of the first.
-inline Cage withVerticesAtOnePlace(Cage cage, const Indices& which) {
+/// Vertices `which` all at the position of the first.
+inline Cage withVerticesAtOnePosition(Cage cage, const Indices& which) {
     for (const std::uint32_t vertex : which) cage.positions[vertex] = cage.positions[which[0]];
     return cage;
 }
@@ -100,7 +100,7 @@ inline Cage withVerticesAtOnePlace(Cage cage, const Indices& which) {
 /// Two faces glued back to back: four vertices of valence 2.
 inline Cage pillow() { return cageOf({{0, 0, 0}, {2, 0, 0}, {2, 0.3f, 2}, {0, 0, 2}}, {{0, 3, 2, 1}, {0, 1, 2, 3}}); }
 
-/// The same without a common vertex: two sheets whose boundaries lie in one place.
+/// Two such faces without a common vertex: two sheets whose boundaries coincide.
 inline Cage backToBack() {
     Cage cage = pillow();
     for (int k = 0; k < 4; ++k) cage.positions.push_back(cage.positions[k]);
@@ -159,7 +159,7 @@ inline void addLoopCages(std::vector<ZooCage>& cages) {
     add("sheetWithHoles", withHoles(triangulated(boundaryGrid()), {9, 10, 20}));
     add("nonManifoldEdge", triangulated(nonManifoldEdge()));
     add("nonManifoldVertex", triangulated(nonManifoldVertex()));
-    add("collapsedFace", withVerticesAtOnePlace(icosahedron(), {0, 11, 5}));
+    add("collapsedFace", withVerticesAtOnePosition(icosahedron(), {0, 11, 5}));
     add("collapsedEdge", triangulated(cubeWithCollapsedEdge()));
 }
 
@@ -199,9 +199,9 @@ inline std::vector<ZooCage> zooCages() {
     add("gridWithoutBoundary", gridWithoutBoundary());
     add("gridWithHoles", withHoles(boundaryGrid(5, 5), {12, 13, 6}));
     add("prismWithHoles", withHoles(nGonPrism(5), {1, 6}));
-    add("cubeWithCollapsedFace", withVerticesAtOnePlace(cubeOfIslands(), {2, 6, 7, 3}));
-    add("cubeWithTwoCornersOfAFaceInOne", withVerticesAtOnePlace(cube(), {2, 7}));
-    add("prismWithCollapsedPolygon", withVerticesAtOnePlace(nGonPrism(6), {6, 7, 8, 9, 10, 11}));
+    add("cubeWithCollapsedFace", withVerticesAtOnePosition(cubeOfIslands(), {2, 6, 7, 3}));
+    add("cubeWithTwoCornersOfAFaceInOne", withVerticesAtOnePosition(cube(), {2, 7}));
+    add("prismWithCollapsedPolygon", withVerticesAtOnePosition(nGonPrism(6), {6, 7, 8, 9, 10, 11}));
     add("pillow", pillow());
     add("backToBack", backToBack());
     add("cubesGluedFaceToFace", twoCubes({2, 0, 0}));

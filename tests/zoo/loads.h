@@ -35,8 +35,8 @@ struct Pen {
     Scheme scheme = Scheme::catmark;
     std::vector<ZooCage> cages;
 
-    /// 4 x 4 cages a layer, far enough apart.
-    static vec3 placeOf(std::size_t number) {
+    /// 4 x 4 cages per layer, far enough apart.
+    static vec3 offsetOf(std::size_t number) {
         const vec3 slot(number % 4, number / 4 % 4, number / 16);
         return 9.0f * slot - vec3(13);
     }
@@ -49,12 +49,12 @@ struct Pen {
     [[nodiscard]] std::vector<vec3> posedTogether(Pose pose) const {
         std::vector<vec3> positions;
         for (std::size_t i = 0; i < cages.size(); ++i)
-            for (const vec3& p : posed(cages[i].cage, pose)) positions.push_back(p + placeOf(i));
+            for (const vec3& p : posed(cages[i].cage, pose)) positions.push_back(p + offsetOf(i));
         return positions;
     }
 
-    [[nodiscard]] const std::string& nameAt(const vec3& place) const {
-        const auto distance = [&](std::size_t i) { return glm::length(place - placeOf(i)); };
+    [[nodiscard]] const std::string& nameAt(const vec3& position) const {
+        const auto distance = [&](std::size_t i) { return glm::length(position - offsetOf(i)); };
         std::size_t nearest = 0;
         for (std::size_t i = 1; i < cages.size(); ++i)
             if (distance(i) < distance(nearest)) nearest = i;

@@ -20,7 +20,7 @@ double difference(const Picture& a, const Picture& b) {
     return std::sqrt(sum / double(left.size()));
 }
 
-/// One-sided, or drawn twice in one place: which of two faces is seen depends on the order of triangles.
+/// One-sided, or drawn twice at the same position: which of two faces is seen depends on the order of triangles.
 bool isDrawnTwice(const std::string& name) {
     for (const char* word : {"moebius", "pillow", "backToBack", "Collapsed", "book", "twistedPair", "glued"})
         if (name.find(word) != std::string::npos) return true;

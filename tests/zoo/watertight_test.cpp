@@ -38,9 +38,9 @@ void expectWatertight(const Load& load, const EdgeRates& rates, Path path, Tally
     EXPECT_TRUE(w.isWatertight()) << fmt::format(
         "{}, {}, {}: {} open edges, {} T-junctions, {} not finite, {} + {} hidden of {} boundary segments; {} ulp at "
         "({}, {}, {})",
-        load.pen.nameAt(w.worstPlace), load.words, kPathNames[int(path)], w.openEdges, w.tJunctions, w.notFinite,
-        w.boundarySegments, w.hiddenBoundarySegments, w.expectedBoundarySegments, w.largestGapUlps, w.worstPlace.x,
-        w.worstPlace.y, w.worstPlace.z);
+        load.pen.nameAt(w.worstLocation), load.words, kPathNames[int(path)], w.openEdges, w.tJunctions, w.notFinite,
+        w.boundarySegments, w.hiddenBoundarySegments, w.expectedBoundarySegments, w.largestGapUlps, w.worstLocation.x,
+        w.worstLocation.y, w.worstLocation.z);
     tally.combinations += load.pen.cages.size();
     tally.triangles += w.triangles;
     ++tally.captures;

@@ -1,0 +1,48 @@
+#include <algorithm>
+#include <cmath>
+
+#include "maps/maps.h"
+#include "maps/neighbours.h"
+
+namespace relief {
+
+MapSize defaultMapSize(int width, int height) { return {1, double(height) / width}; }
+
+NormalMap computeNormalMap(const HeightMap& map, const MapSize& size) {
+    RELIEF_CHECK(size.x > 0);
+    RELIEF_CHECK(size.y > 0);
+    NormalMap normals{.width = map.width, .height = map.height, .normals = {}, .wrap = map.wrap};
+    normals.normals.reserve(map.texels.size());
+    // Differences of two texels, as slopes.
+    const double perX = 0.5 * map.scale * map.width / size.x, perY = 0.5 * map.scale * map.height / size.y;
+    for (int j = 0; j < map.height; ++j) {
+        const float* row = &map.texels[std::size_t(j) * std::size_t(map.width)];
+        const float* above = &map.texels[std::size_t(beside(j, -1, map.height, map.wrap)) * std::size_t(map.width)];
+        const float* below = &map.texels[std::size_t(beside(j, 1, map.height, map.wrap)) * std::size_t(map.width)];
+        for (int i = 0; i < map.width; ++i) {
+            const double across =
+                double(row[beside(i, 1, map.width, map.wrap)]) - row[beside(i, -1, map.width, map.wrap)];
+            const double up = double(above[i]) - below[i];
+            normals.normals.push_back(vec3(glm::normalize(dvec3(-perX * across, -perY * up, 1))));
+        }
+    }
+    return normals;
+}
+
+Image toCodes(const NormalMap& map, NormalY y) {
+    Image image{.width = map.width, .height = map.height, .channels = 3, .texels = {}};
+    image.texels.reserve(3 * map.normals.size());
+    const float up = y == NormalY::up ? 1 : -1;
+    for (const vec3& n : map.normals)
+        for (const float component : {n.x, up * n.y, n.z}) image.texels.push_back(0.5f * component + 0.5f);
+    return image;
+}
+
+double steepestSlope(const NormalMap& map) {
+    double steepest = 0;
+    for (const vec3& n : map.normals)
+        steepest = std::max(steepest, std::atan2(std::hypot(double(n.x), double(n.y)), double(n.z)));
+    return glm::degrees(steepest);
+}
+
+} // namespace relief

@@ -1,0 +1,418 @@
+// Bump mapping and normal maps: the normals that a picture shows, against closed forms and the reference.
+#include <functional>
+#include <numbers>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "device.h"
+#include "meshes.h"
+
+namespace relief::test {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+constexpr int kSide = 160; // pixels
+
+class DetailNormals : public OnDevice {};
+
+Renderer& detailRenderer() {
+    static Renderer instance(device(), {.width = kSide, .height = kSide, .shadowSide = 64});
+    return instance;
+}
+
+/// What a pixel's centre sees.
+struct Seen {
+    int face = -1;
+    dvec2 st{0};
+    dvec3 normal{0};
+    double height = 0;
+};
+
+std::vector<Seen> look(const Instance& instance, RenderOptions options, const dvec3& eye, double size) {
+    options.layers = {Layer::normal, Layer::face, Layer::uv, Layer::height};
+    options.bounds.add(dvec3(-4));
+    options.bounds.add(dvec3(4));
+    options.lighting.castsShadows = false;
+    const double distance = glm::length(eye);
+    options.camera = {.eye = eye,
+                      .target = {0, 0, 0},
+                      .fieldOfView = glm::degrees(2 * std::atan(size / distance)),
+                      .nearDistance = 0.1 * distance,
+                      .farDistance = 3 * distance};
+    const Picture picture = detailRenderer().render(instance, options);
+    std::vector<Seen> all;
+    for (std::size_t i = 0; i < picture.layerValues.size(); i += kLayerChannels) {
+        const float* v = &picture.layerValues[i];
+        if (v[kLayerDepth] > 1e9f) continue;
+        all.push_back({int(v[kLayerFace]),
+                       {v[kLayerTexCoords], v[kLayerTexCoords + 1]},
+                       {v[kLayerNormal], v[kLayerNormal + 1], v[kLayerNormal + 2]},
+                       v[kLayerHeight]});
+    }
+    return all;
+}
+
+double rms(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values) sum += value * value;
+    return values.empty() ? 1e9 : std::sqrt(sum / double(values.size()));
+}
+
+double most(const std::vector<double>& values) { return values.empty() ? 1e9 : *std::ranges::max_element(values); }
+
+// --- closed forms ---------------------------------------------------------------------------------------------------
+
+/// A surface with its derivatives by s and t, and by both twice.
+struct Shape {
+    const char* name;
+    std::function<dvec3(dvec2)> point;
+    bool isMirrored = false; ///< its texture coordinates
+
+    [[nodiscard]] dvec3 derivative(dvec2 st, int axis) const {
+        constexpr double kStep = 1e-5;
+        dvec2 step(0);
+        step[axis] = kStep;
+        return (point(st + step) - point(st - step)) / (2 * kStep);
+    }
+    [[nodiscard]] dvec3 normal(dvec2 st) const {
+        return glm::normalize(glm::cross(derivative(st, 0), derivative(st, 1))) * (isMirrored ? -1.0 : 1.0);
+    }
+};
+
+const std::vector<Shape>& shapes() {
+    static const std::vector<Shape> all = {
+        {"plane", [](dvec2 st) { return dvec3(2 * st.x - 1, 2 * st.y - 1, 0); }},
+        {"mirrored plane", [](dvec2 st) { return dvec3(1 - 2 * st.x, 2 * st.y - 1, 0); }, true},
+        {"cylinder", [](dvec2 st) { return dvec3(std::sin(kTurn * st.x), 2 * st.y - 1, std::cos(kTurn * st.x)); }},
+        {"sphere",
+         [](dvec2 st) {
+             const double along = kTurn * st.x, up = std::numbers::pi * (st.y - 0.5);
+             return dvec3(std::cos(up) * std::sin(along), std::sin(up), std::cos(up) * std::cos(along));
+         }},
+        {"torus",
+         [](dvec2 st) {
+             const double around = kTurn * st.x, across = kTurn * st.y, r = 0.7 + 0.3 * std::cos(across);
+             return dvec3(r * std::sin(around), r * std::cos(around), 0.3 * std::sin(across));
+         },
+         true},
+    };
+    return all;
+}
+
+/// h = amplitude sin(2 pi k s) cos(2 pi k t), as in sineMap().
+struct Wave {
+    double amplitude;
+    int count;
+
+    [[nodiscard]] double height(dvec2 st) const {
+        return amplitude * std::sin(kTurn * count * st.x) * std::cos(kTurn * count * st.y);
+    }
+    [[nodiscard]] dvec2 slopes(dvec2 st) const {
+        const double k = kTurn * count;
+        return amplitude * k * dvec2(std::cos(k * st.x) * std::cos(k * st.y), -std::sin(k * st.x) * std::sin(k * st.y));
+    }
+};
+
+/// Blinn (1978): m = p_s x p_t + h_s (n x p_t) - h_t (n x p_s).
+dvec3 blinnNormal(const Shape& shape, const dvec2& slopes, dvec2 st) {
+    const dvec3 ps = shape.derivative(st, 0), pt = shape.derivative(st, 1), n = shape.normal(st);
+    const dvec3 m = glm::cross(ps, pt) + (slopes.x * glm::cross(n, pt) - slopes.y * glm::cross(n, ps));
+    return glm::normalize(m) * (shape.isMirrored ? -1.0 : 1.0);
+}
+
+/// The shape as triangles, with normals and tangents in closed form.
+struct ShapeMesh {
+    DenseMesh mesh;
+    Tangents tangents;
+
+    ShapeMesh(const Shape& shape, int columns, int rows) {
+        for (int j = 0; j <= rows; ++j)
+            for (int i = 0; i <= columns; ++i) {
+                const dvec2 st(double(i) / columns, std::clamp(double(j) / rows, 1e-6, 1 - 1e-6));
+                mesh.positions.emplace_back(shape.point(st));
+                mesh.normals.emplace_back(shape.normal(st));
+                mesh.texCoords.emplace_back(st);
+                tangents.ps.emplace_back(shape.derivative(st, 0));
+                tangents.pt.emplace_back(shape.derivative(st, 1));
+            }
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < columns; ++i) {
+                const auto a = std::uint32_t(j * (columns + 1) + i), b = a + 1, c = a + std::uint32_t(columns) + 1;
+                if (shape.isMirrored) // still counter-clockwise from outside
+                    mesh.indices.insert(mesh.indices.end(), {a, c, b, b, c, c + 1});
+                else
+                    mesh.indices.insert(mesh.indices.end(), {a, b, c, b, c + 1, c});
+            }
+    }
+};
+
+RenderOptions bilinear() {
+    RenderOptions options;
+    options.filter = Filter::bilinear;
+    return options;
+}
+
+// Poles and silhouettes aside, every pixel has Blinn's normal at its (s,t).
+TEST_F(DetailNormals, ofBumpsAreBlinnsOnPlaneCylinderSphereAndTorus) {
+    const Wave wave{0.03, 4};
+    const HeightMap map = sineMap(512, wave.amplitude, wave.count);
+    for (const Shape& shape : shapes()) {
+        const ShapeMesh triangles(shape, 256, 128);
+        const MeshModel model(device(), {.mesh = &triangles.mesh, .bump = &map, .tangents = &triangles.tangents});
+        std::vector<double> errors, bends;
+        for (const Seen& seen : look(model, bilinear(), {1, 1.5, 4}, 1.2)) {
+            if (std::string(shape.name) == "sphere" && std::abs(seen.st.y - 0.5) > 0.4) continue;
+            if (glm::dot(shape.normal(seen.st), glm::normalize(dvec3(1, 1.5, 4))) < 0.3) continue;
+            errors.push_back(degreesBetween(seen.normal, blinnNormal(shape, wave.slopes(seen.st), seen.st)));
+            bends.push_back(degreesBetween(seen.normal, shape.normal(seen.st)));
+        }
+        EXPECT_GT(errors.size(), 4000u) << shape.name;
+        EXPECT_GT(rms(bends), 5) << shape.name;
+        EXPECT_LT(rms(errors), 0.1) << shape.name;
+        EXPECT_LT(most(errors), 0.5) << shape.name;
+    }
+}
+
+// The normal of the moved torus has one term more, h times the derivative of n: it vanishes with h while the slopes
+// stay.
+TEST_F(DetailNormals, ofBumpsAreThoseOfTheMovedSurfaceWhereHeightsVanish) {
+    const Shape& torus = shapes().back();
+    std::vector<double> errors;
+    for (const int count : {2, 4, 8}) {
+        const Wave wave{0.08 / count, count};
+        const HeightMap map = sineMap(1024, wave.amplitude, wave.count);
+        const ShapeMesh triangles(torus, 256, 128);
+        const MeshModel model(device(), {.mesh = &triangles.mesh, .bump = &map, .tangents = &triangles.tangents});
+        const Shape moved{"moved", [&](dvec2 st) { return torus.point(st) + wave.height(st) * torus.normal(st); },
+                          true};
+        std::vector<double> angles;
+        for (const Seen& seen : look(model, bilinear(), {0, 0, 4}, 1.2))
+            angles.push_back(degreesBetween(seen.normal, moved.normal(seen.st)));
+        errors.push_back(rms(angles));
+    }
+    EXPECT_GT(errors[0], 1.8 * errors[1]);
+    EXPECT_GT(errors[1], 1.8 * errors[2]);
+    EXPECT_LT(errors[2], 0.5);
+}
+
+// --- normal maps ----------------------------------------------------------------------------------------------------
+
+NormalMap constantNormals(const dvec3& normal, NormalSpace space) {
+    return {.width = 2, .height = 2, .normals = std::vector<vec3>(4, vec3(glm::normalize(normal))), .space = space};
+}
+
+/// The frame in double precision: T along p_s in the plane of n, B along the side of p_t.
+dvec3 inFrame(const Shape& shape, const dvec3& c, dvec2 st) {
+    const dvec3 n = shape.normal(st), ps = shape.derivative(st, 0), pt = shape.derivative(st, 1);
+    const dvec3 tangent = glm::normalize(ps - n * glm::dot(n, ps)), side = glm::cross(n, tangent);
+    return c.x * tangent + (glm::dot(side, pt) < 0 ? -c.y : c.y) * side + c.z * n;
+}
+
+TEST_F(DetailNormals, ofTangentSpaceAreInTheFrameOfTheSurfaceMirroredOrNot) {
+    const dvec3 c = glm::normalize(dvec3(0.5, 0.3, 0.8));
+    const NormalMap map = constantNormals(c, NormalSpace::tangent);
+    for (const Shape& shape : shapes()) {
+        const ShapeMesh triangles(shape, 256, 128);
+        const MeshModel model(device(), {.mesh = &triangles.mesh, .normalMap = &map, .tangents = &triangles.tangents});
+        std::vector<double> errors;
+        for (const Seen& seen : look(model, bilinear(), {1, 1.5, 4}, 1.2)) {
+            if (std::string(shape.name) == "sphere" && std::abs(seen.st.y - 0.5) > 0.4) continue;
+            const dvec3 expected = inFrame(shape, c, seen.st);
+            if (glm::dot(shape.normal(seen.st), glm::normalize(dvec3(1, 1.5, 4))) > 0.3)
+                errors.push_back(degreesBetween(seen.normal, expected));
+        }
+        EXPECT_GT(errors.size(), 4000u) << shape.name;
+        EXPECT_LT(most(errors), 0.5) << shape.name;
+    }
+}
+
+// Normals of object space turn with the object.
+TEST_F(DetailNormals, ofObjectSpaceAreTheMapsOwn) {
+    const dvec3 c = glm::normalize(dvec3(0.5, 0.3, 0.8));
+    const NormalMap map = constantNormals(c, NormalSpace::object);
+    const ShapeMesh triangles(shapes().front(), 4, 4);
+    const MeshModel model(device(), {.mesh = &triangles.mesh, .normalMap = &map});
+    const mat4 turn = glm::rotate(mat4(1), 0.5f, vec3(0, 1, 0));
+    for (const Seen& seen : look(Instance(model, {}, turn), bilinear(), {0, 0, 4}, 1.2))
+        EXPECT_LT(degreesBetween(seen.normal, dvec3(turn * vec4(vec3(c), 0))), 0.1);
+}
+
+// --- surfaces -------------------------------------------------------------------------------------------------------
+
+constexpr Path kAllPaths[] = {Path::tessellation, Path::grid, Path::dice};
+
+/// A cube whose faces have islands of their own in the texture, one in two of them mirrored.
+Cage islands() {
+    Cage cage = cubeOfIslands();
+    for (std::size_t face = 0; face < 6; face += 2)
+        std::swap(cage.texCorners[4 * face + 1], cage.texCorners[4 * face + 3]);
+    return cage;
+}
+
+/// (u,v) of (s,t) in the island of a face: its corners are a parallelogram.
+dvec2 uvOf(const Cage& cage, int face, const dvec2& st) {
+    const auto corner = [&](int k) { return dvec2(cage.texCoords[cage.texCorners[std::size_t(4 * face + k)]]); };
+    const glm::dmat2 sides(corner(1) - corner(0), corner(3) - corner(0));
+    return glm::inverse(sides) * (st - corner(0));
+}
+
+struct Islands {
+    Cage cage = islands();
+    SurfaceOptions options{.isolation = 4};
+    Surface surface = buildSurface(cage, options);
+    ReferenceSurface reference{cage, options};
+};
+
+Islands& cubeWithIslands() {
+    static Islands instance;
+    return instance;
+}
+
+/// Angles between what is seen and a normal of the reference, in the middle of faces: at seams heights are the owner's,
+/// and at corners end caps have second derivatives that jump.
+std::vector<double> anglesTo(const std::vector<Seen>& pixels, const HeightMap* map, NormalKind kind) {
+    Islands& cube = cubeWithIslands();
+    std::vector<double> angles;
+    for (const Seen& seen : pixels) {
+        const dvec2 uv = uvOf(cube.cage, seen.face, seen.st);
+        if (std::min({uv.x, uv.y, 1 - uv.x, 1 - uv.y}) < 0.2) continue;
+        const DisplacedFrame frame = displacedFrame(cube.reference, map, seen.face, uv);
+        const dvec3& normal = kind == NormalKind::limit        ? frame.normal
+                              : kind == NormalKind::firstOrder ? frame.firstOrder
+                                                               : frame.full;
+        angles.push_back(degreesBetween(seen.normal, normal));
+    }
+    return angles;
+}
+
+TEST_F(DetailNormals, ofBumpsOnASurfaceAreBlinnsOnAllPaths) {
+    const HeightMap map = sineMap(256, 0.03, 6);
+    Islands& cube = cubeWithIslands();
+    const SurfaceModel model(device(), {.surface = &cube.surface, .cagePositions = cube.cage.positions, .bump = &map});
+    for (const Path path : kAllPaths) {
+        RenderOptions options = bilinear();
+        options.path = path;
+        options.rate = 32;
+        const std::vector<Seen> pixels = look(model, options, {2, 3, 4}, 0.8);
+        const std::vector<double> angles = anglesTo(pixels, &map, NormalKind::firstOrder);
+        EXPECT_GT(angles.size(), 3000u) << int(path);
+        EXPECT_LT(rms(angles), 0.2) << int(path);
+        EXPECT_LT(most(angles), 1.5) << int(path);
+        EXPECT_GT(rms(anglesTo(pixels, nullptr, NormalKind::limit)), 5) << int(path);
+        for (const Seen& seen : pixels) EXPECT_EQ(seen.height, 0) << "the surface has not moved";
+    }
+}
+
+// Whatever part of the heights the triangles carry, the rest of the slopes is added at every pixel.
+TEST_F(DetailNormals, ofBothAreThoseOfTheFullMapAtEveryRate) {
+    const HeightMap map = sineMap(512, 0.004, 18);
+    Islands& cube = cubeWithIslands();
+    const SurfaceModel both(
+        device(), {.surface = &cube.surface, .cagePositions = cube.cage.positions, .height = &map, .bump = &map});
+    const SurfaceModel displaced(device(),
+                                 {.surface = &cube.surface, .cagePositions = cube.cage.positions, .height = &map});
+    for (const Path path : kAllPaths) {
+        RenderOptions options = bilinear();
+        options.path = path;
+        for (const int rate : {32, 16, 8}) {
+            options.rate = rate;
+            const auto angles = [&](const SurfaceModel& model) {
+                return anglesTo(look(model, options, {2, 3, 4}, 0.8), &map, NormalKind::full);
+            };
+            EXPECT_LT(rms(angles(both)), 0.5) << int(path) << " rate " << rate;
+            EXPECT_GT(rms(angles(displaced)), rate > 16 ? 0.5 : 1.5) << int(path) << " rate " << rate;
+        }
+    }
+}
+
+// Shading does not change with the rate: that is what jumps where displacement alone loses heights.
+TEST_F(DetailNormals, ofBothHoldStillWhileRatesChange) {
+    const HeightMap map = sineMap(512, 0.004, 18);
+    Islands& cube = cubeWithIslands();
+    const auto meanChange = [&](const HeightMap* bump) {
+        const SurfaceModel model(
+            device(), {.surface = &cube.surface, .cagePositions = cube.cage.positions, .height = &map, .bump = bump});
+        RenderOptions options;
+        options.path = Path::dice;
+        options.lighting.castsShadows = false;
+        options.bounds.add(dvec3(-2));
+        options.bounds.add(dvec3(2));
+        options.camera = {.eye = {2, 3, 4}, .fieldOfView = 9, .nearDistance = 1, .farDistance = 12};
+        std::vector<Image> pictures;
+        for (const int rate : {8, 10, 12, 14, 16}) {
+            options.rate = rate;
+            pictures.push_back(displayed(detailRenderer().render(model, options)));
+        }
+        double sum = 0;
+        for (std::size_t i = 1; i < pictures.size(); ++i)
+            for (std::size_t k = 0; k < pictures[i].texels.size(); ++k)
+                sum += std::abs(double(pictures[i].texels[k]) - double(pictures[i - 1].texels[k]));
+        return 255 * sum / double((pictures.size() - 1) * pictures[0].texels.size());
+    };
+    const double withBump = meanChange(&map), without = meanChange(nullptr);
+    EXPECT_LT(withBump, 1);
+    EXPECT_GT(without, 3 * withBump);
+}
+
+TEST_F(DetailNormals, ofNormalMapsFollowThePoseAndTheMirroredIslands) {
+    const dvec3 c = glm::normalize(dvec3(0.6, 0.2, 0.8));
+    const NormalMap map = constantNormals(c, NormalSpace::tangent);
+    Islands& cube = cubeWithIslands();
+    const auto check = [&](const std::vector<vec3>& positions, const ReferenceSurface& reference) {
+        const SurfaceModel model(device(), {.surface = &cube.surface, .cagePositions = positions, .normalMap = &map});
+        for (const Path path : kAllPaths) {
+            RenderOptions options = bilinear();
+            options.path = path;
+            options.rate = 16;
+            std::vector<double> angles;
+            for (const Seen& seen : look(model, options, {2, 3, 4}, 0.8)) {
+                const dvec2 uv = uvOf(cube.cage, seen.face, seen.st);
+                if (std::min({uv.x, uv.y, 1 - uv.x, 1 - uv.y}) < 0.05) continue;
+                const DisplacedFrame frame = displacedFrame(reference, nullptr, seen.face, uv);
+                const glm::dmat2 j = glm::inverse(glm::dmat2(frame.tex.jacobian));
+                const dvec3 ps = frame.limit.pu * j[0].x + frame.limit.pv * j[0].y;
+                const dvec3 pt = frame.limit.pu * j[1].x + frame.limit.pv * j[1].y;
+                const dvec3& n = frame.normal;
+                const dvec3 tangent = glm::normalize(ps - n * glm::dot(n, ps)), side = glm::cross(n, tangent);
+                const dvec3 expected = c.x * tangent + (glm::dot(side, pt) < 0 ? -c.y : c.y) * side + c.z * n;
+                angles.push_back(degreesBetween(seen.normal, expected));
+            }
+            EXPECT_GT(angles.size(), 3000u);
+            EXPECT_LT(rms(angles), 0.3) << int(path);
+            EXPECT_LT(most(angles), 2) << int(path);
+        }
+    };
+    check(cube.cage.positions, cube.reference);
+    Cage bent = cube.cage;
+    for (vec3& p : bent.positions) p = vec3(p.x + 0.4f * p.y, p.y, p.z - 0.3f * p.x);
+    check(bent.positions, ReferenceSurface(bent, cube.options));
+}
+
+// --- filters --------------------------------------------------------------------------------------------------------
+
+/// A floor with stripes, seen at a flat angle: the mean of many pixels of a larger picture is what one should show.
+TEST_F(DetailNormals, areWithoutNoiseWhereTheFilterFitsThePixel) {
+    const HeightMap stripes = sineMap(512, 0.002, 64);
+    const ShapeMesh floor(shapes().front(), 2, 2);
+    const MeshModel model(device(), {.mesh = &floor.mesh, .bump = &stripes, .tangents = &floor.tangents});
+    const auto noise = [&](Filter filter) { // how far normals are from the floor's own: at a distance they cancel
+        RenderOptions options;
+        options.filter = filter;
+        std::vector<double> angles;
+        for (const Seen& seen : look(model, options, {0, -6, 1}, 0.9))
+            angles.push_back(degreesBetween(seen.normal, {0, 0, 1}));
+        return rms(angles);
+    };
+    const double nearest = noise(Filter::nearest), bilinear = noise(Filter::bilinear), mipmap = noise(Filter::mipmap);
+    EXPECT_GT(nearest, 5);
+    EXPECT_GT(bilinear, 5);
+    EXPECT_LT(mipmap, 0.5 * bilinear);
+    if (device().traits().maxAnisotropy > 1) { // it keeps what mipmaps blur across
+        const double anisotropic = noise(Filter::anisotropic);
+        EXPECT_NE(anisotropic, mipmap);
+        EXPECT_LT(anisotropic, bilinear);
+    }
+}
+
+} // namespace
+} // namespace relief::test

@@ -1,0 +1,115 @@
+// Textures of a glTF file's own material on the object that is drawn.
+#include "scene/scene.h"
+#include "textured.h"
+
+namespace relief::test {
+namespace {
+
+const vec3 kTilted(0.5f, 0.25f, 0.8f);
+
+class GltfTextures : public ::testing::Test {
+protected:
+    LoadedObject loadFile(const GltfFile& file) {
+        putFile(scene_.object.cage, file.glb());
+        return std::move(load(scene_, CageState::posed, warnings_.warn()).object);
+    }
+    static GltfFile plane() { return mirroredPlane(colored({1, 0.5f, 0}), tiltedBelow(kTilted)); }
+
+    TemporaryFolder folder_;
+    Warnings warnings_;
+    SceneDesc scene_{.object = {.cage = folder_ / "a.glb"}};
+};
+
+TEST_F(GltfTextures, areTaken) {
+    GltfFile file = plane();
+    file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 1};
+    const LoadedObject object = loadFile(file);
+    ASSERT_TRUE(object.albedo && object.normalMap && object.textureColor);
+    EXPECT_NEAR(object.albedo->texels[1], 0.5, 0.01);
+    EXPECT_EQ(*object.textureColor, vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(makeMaterial(scene_.object.material, object.textureColor).albedo, vec3(0.5f, 0.25f, 1));
+    EXPECT_EQ(object.normalMap->wrap, Wrap::repeat);
+    EXPECT_LT(glm::length(object.normalMap->normals[60] - glm::normalize(kTilted)), 0.01f);
+    EXPECT_TRUE(warnings_.lines.empty()) << warnings_.lines.front();
+}
+
+TEST_F(GltfTextures, splitMirroredHalves) {
+    const LoadedObject object = loadFile(plane());
+    EXPECT_TRUE(object.needsTangents);
+    EXPECT_EQ(object.dense.value().positions.size(), 8u);
+    GltfFile flat = plane();
+    flat.json["materials"][0].erase("normalTexture");
+    const LoadedObject withoutNormals = loadFile(flat);
+    EXPECT_FALSE(withoutNormals.needsTangents);
+    EXPECT_EQ(withoutNormals.dense.value().positions.size(), 6u);
+}
+
+TEST_F(GltfTextures, haveTheScaleAndWrapOfTheFile) {
+    GltfFile file = plane();
+    file.json["materials"][0]["normalTexture"]["scale"] = 2;
+    file.json["textures"][1]["sampler"] = 0;
+    file.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33071}}};
+    const LoadedObject object = loadFile(file);
+    const vec3 scaled = glm::normalize(kTilted * vec3(2, 2, 1));
+    EXPECT_LT(glm::length(object.normalMap.value().normals[60] - scaled), 0.01f);
+    EXPECT_EQ(object.normalMap->wrap, Wrap::clamp);
+    scene_.object.height.wrap = Wrap::repeat;
+    EXPECT_EQ(loadFile(file).normalMap.value().wrap, Wrap::repeat) << "--wrap";
+}
+
+TEST_F(GltfTextures, giveWayToThoseOfTheCommandLine) {
+    writeImage(folder_ / "blue.png", colored({0, 0, 1}), SampleType::uint8);
+    scene_.object.material.albedo = folder_ / "blue.png";
+    const LoadedObject object = loadFile(plane());
+    EXPECT_NEAR(object.albedo.value().texels[2], 1, 0.01);
+    EXPECT_FALSE(object.textureColor);
+    EXPECT_TRUE(object.normalMap);
+    scene_.object.material.normalMap.path = folder_ / "blue.png"; // (0, 0, 1): a code of (-1, -1, 1)
+    EXPECT_LT(loadFile(plane()).normalMap.value().normals[0].x, -0.5f);
+}
+
+TEST_F(GltfTextures, ofGrayAreColors) {
+    const Image gray{.width = 2, .height = 1, .channels = 1, .texels = {0.2f, 0.8f}};
+    const LoadedObject object = loadFile(mirroredPlane(gray, tiltedBelow(kTilted)));
+    ASSERT_EQ(object.albedo.value().channels, 3);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(object.albedo->texels[std::size_t(3 + k)], 0.8, 0.01);
+}
+
+TEST_F(GltfTextures, thatMaterialsDoNotShareAreIgnored) {
+    GltfFile file = plane();
+    Json second = file.json["meshes"][0]["primitives"][0];
+    second["material"] = 1;
+    file.json["meshes"][0]["primitives"].push_back(second);
+    Json other = file.json["materials"][0];
+    other["pbrMetallicRoughness"]["baseColorTexture"]["index"] = 1;
+    file.json["materials"].push_back(other);
+    const LoadedObject object = loadFile(file);
+    EXPECT_FALSE(object.albedo);
+    EXPECT_TRUE(object.normalMap) << "they share it";
+    ASSERT_EQ(warnings_.lines.size(), 1u);
+    EXPECT_TRUE(warnings_.has("a.glb: images/0: its 2 materials do not share it"));
+    EXPECT_TRUE(warnings_.has("--albedo"));
+}
+
+TEST_F(GltfTextures, thatCannotBeDecodedAreWarnedOf) {
+    GltfFile file = plane();
+    file.json["images"][0] = {{"uri", "data:image/png;base64," + base64("no picture")}};
+    file.json["images"][1] = {{"uri", "data:image/png;base64," + base64("\x89PNG\r\n\x1a\n")}};
+    const LoadedObject object = loadFile(file);
+    EXPECT_FALSE(object.albedo || object.normalMap || object.textureColor);
+    ASSERT_EQ(warnings_.lines.size(), 2u);
+    EXPECT_TRUE(warnings_.has("a.glb: images/0: not a picture"));
+    EXPECT_TRUE(warnings_.has("a.glb: images/1: damaged png"));
+    EXPECT_TRUE(warnings_.has("drawn without that texture"));
+}
+
+TEST_F(GltfTextures, needTextureCoordinates) {
+    GltfFile file = plane();
+    file.attributes().erase("TEXCOORD_0");
+    const LoadedObject object = loadFile(file);
+    EXPECT_FALSE(object.albedo || object.normalMap);
+    EXPECT_TRUE(warnings_.lines.empty()) << warnings_.lines.front();
+}
+
+} // namespace
+} // namespace relief::test
