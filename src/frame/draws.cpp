@@ -45,9 +45,13 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
 }
 
 void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats) {
+    const bool hasLayers = !frame.options.layers.empty();
+    const DrawPass mostWanted = hasLayers ? DrawPass::layers : DrawPass::surface;
+    const ShaderConstants constants = constantsOf(frame, drawn, mostWanted);
     drawn.diced = dicer.dice(*drawn.surface, drawn.rates,
                              {.normal = frame.options.normal,
-                              .wantsTexCoords = constantsOf(frame, drawn, DrawPass::surface).wantsTexCoords,
+                              .wantsTexCoords = constants.wantsTexCoords && constants.hasTexCoords,
+                              .wantsFaces = hasLayers,
                               .memory = frame.options.memory});
     const DicedMesh& mesh = drawn.diced;
     drawn.bindings[kBindMesh] = mesh.vertices.binding();
@@ -96,7 +100,10 @@ void Renderer::Parts::draw(Rendering& rendering, const Frame& frame, DrawPass pa
             vkCmdBindIndexBuffer(commands, drawn.mesh->indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
             rendering.drawMesh(0, drawn.mesh->triangleCount);
         } else if (frame.path == Path::dice) {
-            drawDiced(rendering, frame, drawn, pipeline);
+            if (pass == DrawPass::layers)
+                drawDicedFaces(rendering, drawn, pipeline);
+            else
+                drawDiced(rendering, frame, drawn, pipeline);
         } else if (frame.path == Path::tessellation) {
             drawPatches(commands, drawn, pass);
         } else {
@@ -122,6 +129,21 @@ void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Drawn& drawn, co
     }
 }
 
+namespace {
+
+/// A draw per face that has triangles, after `prepare(face)`.
+template <typename Prepare>
+void drawFaces(Rendering& rendering, const DicedMesh& mesh, const Prepare& prepare) {
+    for (std::uint32_t face = 0; face + 1 < mesh.firstTriangles.size(); ++face) {
+        const std::uint32_t first = mesh.firstTriangles[face], count = mesh.firstTriangles[face + 1] - first;
+        if (count == 0) continue;
+        prepare(face);
+        rendering.drawMesh(first, count);
+    }
+}
+
+} // namespace
+
 /// The whole mesh at once, or face by face where the technique shows what belongs to faces.
 void Renderer::Parts::drawDiced(Rendering& rendering, const Frame& frame, const Drawn& drawn,
                                 const Pipeline& pipeline) {
@@ -133,12 +155,18 @@ void Renderer::Parts::drawDiced(Rendering& rendering, const Frame& frame, const 
         rendering.drawMesh(0, mesh.triangleCount);
         return;
     }
-    for (std::uint32_t face = 0; face + 1 < mesh.firstTriangles.size(); ++face) {
-        const std::uint32_t first = mesh.firstTriangles[face], count = mesh.firstTriangles[face + 1] - first;
-        if (count == 0) continue;
+    drawFaces(rendering, mesh, [&](std::uint32_t face) {
         pushConstants(commands, pipeline, MeshPush{.isOneFace = 1, .face = face, .rate = mesh.faceRates[face]});
-        rendering.drawMesh(first, count);
-    }
+    });
+}
+
+/// Face by face, each with what the numbers of its vertices mean.
+void Renderer::Parts::drawDicedFaces(Rendering& rendering, const Drawn& drawn, const Pipeline& pipeline) {
+    const VkCommandBuffer commands = rendering.commands();
+    const DicedMesh& mesh = drawn.diced;
+    RELIEF_CHECK(mesh.faces.size() + 1 == mesh.firstTriangles.size());
+    vkCmdBindIndexBuffer(commands, mesh.indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+    drawFaces(rendering, mesh, [&](std::uint32_t face) { pushConstants(commands, pipeline, mesh.faces[face]); });
 }
 
 } // namespace relief
