@@ -107,7 +107,7 @@ void Renderer::Parts::draw(Rendering& rendering, const Frame& frame, DrawPass pa
         } else if (frame.path == Path::tessellation) {
             drawPatches(commands, drawn, pass);
         } else {
-            drawGrids(commands, drawn, pipeline, pass);
+            drawGrids(rendering, drawn, pipeline, pass);
         }
     }
 }
@@ -120,12 +120,13 @@ void Renderer::Parts::drawPatches(VkCommandBuffer commands, const Drawn& drawn, 
                           std::min(atOnce, count - first), sizeof(VkDrawIndirectCommand));
 }
 
-void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Drawn& drawn, const Pipeline& pipeline, DrawPass pass) {
+void Renderer::Parts::drawGrids(Rendering& rendering, const Drawn& drawn, const Pipeline& pipeline, DrawPass pass) {
+    const VkCommandBuffer commands = rendering.commands();
     for (const DrawBatch& batch : batchesOf(drawn.plan, pass)) {
         pushConstants(commands, pipeline, GridPush{batch.columns, batch.rows, 0});
         vkCmdBindIndexBuffer(commands, gridOf(*drawn.surface, batch).handle.get(), 0, VK_INDEX_TYPE_UINT32);
-        const std::uint32_t indexCount = batch.columns * batch.rows * (drawn.isTriangles() ? 3 : 6);
-        vkCmdDrawIndexed(commands, indexCount, batch.faceCount, 0, 0, batch.firstFace);
+        rendering.drawGrids(batch.columns * batch.rows * (drawn.isTriangles() ? 1 : 2), batch.firstFace,
+                            batch.faceCount);
     }
 }
 
