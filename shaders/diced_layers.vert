@@ -12,6 +12,7 @@ layout(push_constant, scalar) uniform PushBlock { DicedFacePush push; };
 
 RELIEF_TABLE(kBindMesh, vec4, meshAt)
 RELIEF_TABLE(kBindMeshTexCoords, vec2, meshTexCoords)
+RELIEF_TABLE(kBindMeshTexGradients, vec4, meshTexGradients)
 
 layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
 
@@ -68,10 +69,11 @@ void main() {
     precise vec4 clip = project(at.xyz);
     gl_Position = clip;
     vNormal = worldNormal(meshAt(2u * vertex + 1u).xyz);
-    vec2 st = kHasTexCoords ? meshTexCoords(vertex) : vec2(0);
     vec2 uv = vertex >= push.firstInside ? insidePoint(vertex - push.firstInside) : borderPoint(vertex);
-    vTexCoord = vec4(st, uv);
+    vTexCoord = vec4(kHasTexCoords ? meshTexCoords(vertex) : uv, uv);
     vHeight = at.w;
+    vGradientS = kHasTexGradients ? worldGradient(meshTexGradients(2u * vertex)) : vec4(0);
+    vGradientT = kHasTexGradients ? worldGradient(meshTexGradients(2u * vertex + 1u)) : vec4(0);
     vFace = push.face;
     vRate = 1u;
 }

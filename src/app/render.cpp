@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.h"
+#include "app/compare.h"
 #include "app/empty.h"
 #include "app/object_options.h"
+#include "app/options.h"
 #include "app/output.h"
 #include "app/picture_options.h"
 
@@ -16,6 +18,7 @@ namespace {
 
 struct RenderArgs {
     SceneDesc scene;
+    std::vector<Detail> compared; ///< draws all of these side by side in place of one
     PictureArgs picture;
     Output output;
     std::string target;
@@ -33,38 +36,43 @@ struct Drawn {
     double loadSeconds = 0, surfaceSeconds = 0, tableSeconds = 0;
 };
 
+/// Programs read these names: relief bench does.
+nlohmann::json toJson(const RenderArgs& args, const Drawn& drawn) {
+    const FrameStats& stats = drawn.picture.stats;
+    nlohmann::json all{{"picture", args.target},
+                       {"device", drawn.device},
+                       {"triangles", stats.triangleCount},
+                       {"faces", stats.faceCount},
+                       {"hidden_faces", stats.hiddenFaceCount},
+                       {"draws", stats.drawCount},
+                       {"max_rate", stats.maxRate},
+                       {"cage_bytes", drawn.cageBytes},
+                       {"map_bytes", drawn.mapBytes},
+                       {"map_format", drawn.mapFormat},
+                       {"vertices", stats.vertexCount},
+                       {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
+                       {"device_bytes", drawn.deviceBytes},
+                       {"peak_device_bytes", drawn.peakDeviceBytes},
+                       {"load_ms", 1e3 * drawn.loadSeconds},
+                       {"surface_ms", 1e3 * drawn.surfaceSeconds},
+                       {"table_ms", 1e3 * drawn.tableSeconds},
+                       {"rate_ms", stats.rateMs},
+                       {"dice_ms", stats.diceMs},
+                       {"shadow_ms", stats.shadowMs},
+                       {"color_ms", stats.colorMs},
+                       {"light_ms", stats.lightMs},
+                       {"frame_ms", stats.wallMs}};
+    if (drawn.function)
+        all.update({{"function_compiled", drawn.function->compiledCount},
+                    {"function_cached", drawn.function->cachedCount},
+                    {"function_ms", drawn.function->milliseconds}});
+    return all;
+}
+
 void report(const RenderArgs& args, const Drawn& drawn) {
     const FrameStats& stats = drawn.picture.stats;
     if (args.output.isJson) {
-        // Programs read these names: relief bench does.
-        nlohmann::json all{{"picture", args.target},
-                           {"device", drawn.device},
-                           {"triangles", stats.triangleCount},
-                           {"faces", stats.faceCount},
-                           {"hidden_faces", stats.hiddenFaceCount},
-                           {"draws", stats.drawCount},
-                           {"max_rate", stats.maxRate},
-                           {"cage_bytes", drawn.cageBytes},
-                           {"map_bytes", drawn.mapBytes},
-                           {"map_format", drawn.mapFormat},
-                           {"vertices", stats.vertexCount},
-                           {"dense_bytes", denseBytes(stats.vertexCount, stats.triangleCount)},
-                           {"device_bytes", drawn.deviceBytes},
-                           {"peak_device_bytes", drawn.peakDeviceBytes},
-                           {"load_ms", 1e3 * drawn.loadSeconds},
-                           {"surface_ms", 1e3 * drawn.surfaceSeconds},
-                           {"table_ms", 1e3 * drawn.tableSeconds},
-                           {"rate_ms", stats.rateMs},
-                           {"dice_ms", stats.diceMs},
-                           {"shadow_ms", stats.shadowMs},
-                           {"color_ms", stats.colorMs},
-                           {"light_ms", stats.lightMs},
-                           {"frame_ms", stats.wallMs}};
-        if (drawn.function)
-            all.update({{"function_compiled", drawn.function->compiledCount},
-                        {"function_cached", drawn.function->cachedCount},
-                        {"function_ms", drawn.function->milliseconds}});
-        printJson(all);
+        printJson(toJson(args, drawn));
     } else if (!args.output.isQuiet) {
         // One line for people, and a second one with the time of every step.
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
@@ -91,7 +99,11 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
         opened = opening.get();
         measureFunction(*opened, loaded.object, args.scene.object.height, {{loaded.object.time}}, warn);
     }
+    // Techniques that are compared have one camera, which holds the displaced surface.
+    const Detail detail = loaded.object.detail;
+    if (!args.compared.empty()) loaded.object.detail = Detail::displacement;
     const std::vector<dvec3> points = computeOutline(loaded.object);
+    loaded.object.detail = detail;
     progress.advance();
 
     // What the picture shows, and the model of it.
@@ -128,6 +140,8 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     Renderer renderer(device, {.width = size.x, .height = size.y});
     device.startPeak();
     drawn.picture = renderer.render(Instance(model, material), options);
+    // The first frame compiles shaders: times that are compared are those of a second one.
+    if (!args.compared.empty()) drawn.picture = renderer.render(Instance(model, material), options);
     drawn.peakDeviceBytes = device.peakBytes();
     if (surface != nullptr && surface->function) drawn.function = surface->function->costs();
     drawn.complaint = complaintOf(drawn.picture, {points, options.camera, size, coordinates});
@@ -136,8 +150,42 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     return drawn;
 }
 
+std::string captionOf(Detail detail, const FrameStats& stats) {
+    return fmt::format("{}: {:.0f} ms, {} triangles", wordOf(kDetails, detail), stats.wallMs, stats.triangleCount);
+}
+
+int compare(const RenderArgs& args) {
+    if (!args.target.ends_with(".png")) fail(Failure::usage, "{}: --compare writes a .png", args.target);
+    if (args.scene.object.height.path.empty() && args.scene.object.height.function.empty())
+        fail(Failure::usage, "--compare shows what heights do; name a --height map or a --height-function");
+    Progress progress("comparing", 5 * args.compared.size(), args.output.progress);
+    const Warn warn = makeWarn(args.output.isQuiet);
+    std::vector<Panel> panels;
+    nlohmann::json reports = nlohmann::json::array();
+    for (const Detail detail : args.compared) {
+        RenderArgs one = args;
+        one.scene.object.height.detail = detail;
+        const Drawn drawn = draw(one, warn, progress);
+        panels.push_back({displayed(drawn.picture, args.picture.finish), captionOf(detail, drawn.picture.stats)});
+        reports.push_back(toJson(one, drawn));
+        reports.back()["detail"] = wordOf(kDetails, detail);
+        progress.advance();
+    }
+    writeImage(args.target, arrangePanels(panels, warn), SampleType::uint8);
+    if (args.output.isJson) {
+        printJson(reports);
+    } else if (!args.output.isQuiet) {
+        for (const Panel& panel : panels) std::cerr << fmt::format("{}: {}\n", args.target, panel.caption);
+    }
+    return 0;
+}
+
 int render(const RenderArgs& args) {
     checkPicturePath(args.target, args.picture);
+    if (!args.compared.empty()) {
+        checkOutput(args.target, listFiles(args.scene));
+        return compare(args);
+    }
     checkOutput(args.target, listFiles(args.scene));
     Progress progress("rendering", 5, args.output.progress);
     const Warn warn = makeWarn(args.output.isQuiet);
@@ -149,6 +197,19 @@ int render(const RenderArgs& args) {
     return 0;
 }
 
+void addCompare(CLI::App& app, std::vector<Detail>& compared) {
+    const std::vector<WordHelp> words = listWords(kDetails);
+    const auto set = [&compared](const std::vector<std::string>& names) {
+        compared.clear();
+        for (const std::string& name : names)
+            for (const Word<Detail>& row : kDetails)
+                if (name == row.word) compared.push_back(row.value);
+    };
+    CLI::Option* option = app.add_option_function<std::vector<std::string>>(
+        "--compare", set, "draw the view by each of these, side by side with their times; words as of --detail");
+    listIn("height", "HOW,HOW", option->delimiter(',')->check(oneOf(words)));
+}
+
 } // namespace
 
 Run addRender(CLI::App& app) {
@@ -156,6 +217,7 @@ Run addRender(CLI::App& app) {
     addObject(app, args->scene.object);
     app.add_option("-o,--output", args->target, "picture to write: .png or .exr")->required()->option_text("PICTURE");
     addPicture(app, args->scene, args->picture);
+    addCompare(app, args->compared);
     addTime(app, args->scene.object.motion);
     addOutput(app, args->output);
     app.footer(
@@ -164,6 +226,7 @@ Run addRender(CLI::App& app) {
         "  relief render cage.obj --height wrinkles.png --scale 0.05 --albedo skin.png --edge-pixels 1 -o face.png\n"
         "  relief render meshes/torus.obj --height-function golf --scale 0.5 -o golf.png\n"
         "  relief render cage.obj --show wireframe --rate 8 --size 800,600 --azimuth 45 -o wire.png\n"
+        "  relief render cage.obj --height map.exr --compare bump,displacement,both -o compared.png\n"
         "  relief render dense.obj -o dense.exr");
     return [args] { return render(*args); };
 }

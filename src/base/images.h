@@ -96,6 +96,12 @@ struct BadTexel {
 /// The first bad texel in row-major order; empty when all are finite.
 std::optional<BadTexel> findNotFinite(const Image& image);
 
+// --- drawing ------------------------------------------------------------------------------------------------------
+
+/// Draws a line of text, `size` pixels high, centred at (x, y), into an image of 3 or 4 channels. False where there is
+/// no font.
+bool drawText(Image& image, const std::string& text, int x, int y, int size, float grey);
+
 // --- writing ------------------------------------------------------------------------------------------------------
 
 enum class SampleType { uint8, uint16, half, real };

@@ -39,7 +39,7 @@ const std::map<std::string, std::string> kPackageOf = {
 };
 
 /// What no find_... names: tools, and what is loaded when relief runs.
-const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "ffmpeg"};
+const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "ffmpeg", "fonts-dejavu-core"};
 
 Names packages() {
     Names names;

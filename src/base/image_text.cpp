@@ -1,0 +1,25 @@
+// Text in pictures, by OpenImageIO and FreeType.
+#include <filesystem>
+
+#include <OpenImageIO/imagebuf.h>
+#include <OpenImageIO/imagebufalgo.h>
+
+#include "base/base.h"
+
+namespace relief {
+
+bool drawText(Image& image, const std::string& text, int x, int y, int size, float grey) {
+    // OpenImageIO looks for a name in a few folders, which are not Debian's.
+    const char* debians = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+    const std::string font = std::filesystem::exists(debians) ? debians : "DejaVuSans";
+    OIIO::ImageBuf buffer(OIIO::ImageSpec(image.width, image.height, image.channels, OIIO::TypeFloat),
+                          image.texels.data());
+    const float color[4] = {grey, grey, grey, 1};
+    const bool isDrawn =
+        OIIO::ImageBufAlgo::render_text(buffer, x, y, text, size, font, {color, image.channels},
+                                        OIIO::ImageBufAlgo::TextAlignX::Center, OIIO::ImageBufAlgo::TextAlignY::Center);
+    if (!isDrawn) (void)buffer.geterror(); // taken, so that nothing prints it
+    return isDrawn;
+}
+
+} // namespace relief
