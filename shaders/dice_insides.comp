@@ -19,15 +19,7 @@ vec2 insidePoint(InsideTile tile, uvec2 ij) {
     Face record = fetchFace(tile.face);
     float rates[kSideCount];
     for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]).rate;
-#ifdef RELIEF_TRIANGLES
-    float rate = max(rates[0], max(rates[1], rates[2])), n = float(segments.x);
-    vec3 c = vec3(n - float(ij.x + ij.y), ij) / n;
-    c = vec3(spaced(c.x, n, rate), spaced(c.y, n, rate), spaced(c.z, n, rate));
-    return c.yz / (c.x + c.y + c.z);
-#else
-    return vec2(sampleParameter(ij.x, segments.x, max(rates[0], rates[2])),
-                sampleParameter(ij.y, segments.y, max(rates[1], rates[3])));
-#endif
+    return fractionalPoint(ij.x, ij.y, segments, rates);
 }
 
 #ifdef RELIEF_TRIANGLES

@@ -14,14 +14,7 @@ vec2 facePoint(uint face, uint i, uint j) {
     Face record = fetchFace(face);
     float rates[kSideCount];
     for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]).rate;
-#ifdef RELIEF_TRIANGLES
-    float rate = max(rates[0], max(rates[1], rates[2]));
-    vec3 c = vec3(n - i - j, i, j) / float(n);
-    c = vec3(spaced(c.x, float(n), rate), spaced(c.y, float(n), rate), spaced(c.z, float(n), rate));
-    return c.yz / (c.x + c.y + c.z);
-#else
-    return vec2(sampleParameter(i, n, max(rates[0], rates[2])), sampleParameter(j, m, max(rates[1], rates[3])));
-#endif
+    return fractionalPoint(i, j, uvec2(n, m), rates);
 }
 
 void main() {

@@ -43,6 +43,18 @@ float spaced(float x, float n, float rate) {
     return x <= 0.5 ? t : 1.0 - t;
 }
 
+// Sample (i,j) of a lattice of n segments where rates need not be whole (--spacing fractional); `rates` are those of the sides.
+vec2 fractionalPoint(uint i, uint j, uvec2 n, float rates[kSideCount]) {
+#ifdef RELIEF_TRIANGLES
+    float rate = max(rates[0], max(rates[1], rates[2]));
+    vec3 c = vec3(n.x - i - j, i, j) / float(n.x);
+    c = vec3(spaced(c.x, float(n.x), rate), spaced(c.y, float(n.x), rate), spaced(c.z, float(n.x), rate));
+    return c.yz / (c.x + c.y + c.z);
+#else
+    return vec2(sampleParameter(i, n.x, max(rates[0], rates[2])), sampleParameter(j, n.y, max(rates[1], rates[3])));
+#endif
+}
+
 vec2 sidePoint(uint side, float x) {
 #ifdef RELIEF_TRIANGLES
     return side == 0u ? vec2(x, 0.0) : side == 1u ? vec2(1.0 - x, x) : vec2(0.0, 1.0 - x);

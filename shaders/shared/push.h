@@ -2,7 +2,7 @@
 #ifndef RELIEF_SHARED_PUSH_H
 #define RELIEF_SHARED_PUSH_H
 
-#include "shared/types.h"
+#include "shared/dice.h"
 
 #ifdef __cplusplus
 namespace relief {
@@ -22,6 +22,16 @@ struct MeshPush {
     uint rate; // largest of the face's sides
 };
 
+// diced_layers.vert: one face of a diced mesh, with what the numbers of its vertices mean.
+struct DicedFacePush {
+    uint face;
+    uint firstInside; // vertex; those of all sides are before it
+    uint sides[4];    // as Face::sides
+    uint segments[4]; // of the sides
+    float rates[4];   // of the sides
+    FaceRuns runs;    // the first vertex of each
+};
+
 // dice_*.comp: invocations, workgroups or tiles of one of many dispatches.
 struct DicePush {
     uint first; // number of the dispatch's first workgroup
@@ -34,10 +44,11 @@ struct SamplePush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GridPush) == 12 && sizeof(MeshPush) == 12 && sizeof(DicePush) == 8 && sizeof(SamplePush) == 4);
+static_assert(sizeof(GridPush) == 12 && sizeof(MeshPush) == 12 && sizeof(DicePush) == 8 && sizeof(SamplePush) == 4 &&
+              sizeof(DicedFacePush) == 120);
 
-// Bytes that every pipeline's layout reserves: what the largest block takes.
-inline constexpr uint kPushBytes = 12;
+// Bytes that every pipeline's layout reserves: what the largest block takes. Vulkan promises 128.
+inline constexpr uint kPushBytes = 120;
 } // namespace relief
 #endif
 #endif

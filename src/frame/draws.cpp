@@ -49,11 +49,14 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
 }
 
 void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats) {
-    const ShaderConstants wants = constantsOf(frame, drawn, DrawPass::surface);
+    const bool hasLayers = !frame.options.layers.empty();
+    const DrawPass mostWanted = hasLayers ? DrawPass::layers : DrawPass::surface;
+    const ShaderConstants constants = constantsOf(frame, drawn, mostWanted);
     drawn.diced = dicer.dice(*drawn.surface, drawn.rates,
                              {.normal = frame.options.normal,
-                              .wantsTexCoords = wants.wantsTexCoords,
-                              .wantsTexGradients = wants.hasTexGradients,
+                              .wantsTexCoords = constants.wantsTexCoords && constants.hasTexCoords,
+                              .wantsTexGradients = constants.hasTexGradients,
+                              .wantsFaces = hasLayers,
                               .memory = frame.options.memory});
     const DicedMesh& mesh = drawn.diced;
     drawn.bindings[kBindMesh] = mesh.vertices.binding();
@@ -103,11 +106,14 @@ void Renderer::Parts::draw(Rendering& rendering, const Frame& frame, DrawPass pa
             vkCmdBindIndexBuffer(commands, drawn.mesh->indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
             rendering.drawMesh(0, drawn.mesh->triangleCount);
         } else if (frame.path == Path::dice) {
-            drawDiced(rendering, frame, drawn, pipeline);
+            if (pass == DrawPass::layers)
+                drawDicedFaces(rendering, drawn, pipeline);
+            else
+                drawDiced(rendering, frame, drawn, pipeline);
         } else if (frame.path == Path::tessellation) {
             drawPatches(commands, drawn, pass);
         } else {
-            drawGrids(commands, drawn, pipeline, pass);
+            drawGrids(rendering, drawn, pipeline, pass);
         }
     }
 }
@@ -120,14 +126,30 @@ void Renderer::Parts::drawPatches(VkCommandBuffer commands, const Drawn& drawn, 
                           std::min(atOnce, count - first), sizeof(VkDrawIndirectCommand));
 }
 
-void Renderer::Parts::drawGrids(VkCommandBuffer commands, const Drawn& drawn, const Pipeline& pipeline, DrawPass pass) {
+void Renderer::Parts::drawGrids(Rendering& rendering, const Drawn& drawn, const Pipeline& pipeline, DrawPass pass) {
+    const VkCommandBuffer commands = rendering.commands();
     for (const DrawBatch& batch : batchesOf(drawn.plan, pass)) {
         pushConstants(commands, pipeline, GridPush{batch.columns, batch.rows, 0});
         vkCmdBindIndexBuffer(commands, gridOf(*drawn.surface, batch).handle.get(), 0, VK_INDEX_TYPE_UINT32);
-        const std::uint32_t indexCount = batch.columns * batch.rows * (drawn.isTriangles() ? 3 : 6);
-        vkCmdDrawIndexed(commands, indexCount, batch.faceCount, 0, 0, batch.firstFace);
+        rendering.drawGrids(batch.columns * batch.rows * (drawn.isTriangles() ? 1 : 2), batch.firstFace,
+                            batch.faceCount);
     }
 }
+
+namespace {
+
+/// A draw per face that has triangles, after `prepare(face)`.
+template <typename Prepare>
+void drawFaces(Rendering& rendering, const DicedMesh& mesh, const Prepare& prepare) {
+    for (std::uint32_t face = 0; face + 1 < mesh.firstTriangles.size(); ++face) {
+        const std::uint32_t first = mesh.firstTriangles[face], count = mesh.firstTriangles[face + 1] - first;
+        if (count == 0) continue;
+        prepare(face);
+        rendering.drawMesh(first, count);
+    }
+}
+
+} // namespace
 
 /// The whole mesh at once, or face by face where the technique shows what belongs to faces.
 void Renderer::Parts::drawDiced(Rendering& rendering, const Frame& frame, const Drawn& drawn,
@@ -140,12 +162,18 @@ void Renderer::Parts::drawDiced(Rendering& rendering, const Frame& frame, const 
         rendering.drawMesh(0, mesh.triangleCount);
         return;
     }
-    for (std::uint32_t face = 0; face + 1 < mesh.firstTriangles.size(); ++face) {
-        const std::uint32_t first = mesh.firstTriangles[face], count = mesh.firstTriangles[face + 1] - first;
-        if (count == 0) continue;
+    drawFaces(rendering, mesh, [&](std::uint32_t face) {
         pushConstants(commands, pipeline, MeshPush{.isOneFace = 1, .face = face, .rate = mesh.faceRates[face]});
-        rendering.drawMesh(first, count);
-    }
+    });
+}
+
+/// Face by face, each with what the numbers of its vertices mean.
+void Renderer::Parts::drawDicedFaces(Rendering& rendering, const Drawn& drawn, const Pipeline& pipeline) {
+    const VkCommandBuffer commands = rendering.commands();
+    const DicedMesh& mesh = drawn.diced;
+    RELIEF_CHECK(mesh.faces.size() + 1 == mesh.firstTriangles.size());
+    vkCmdBindIndexBuffer(commands, mesh.indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+    drawFaces(rendering, mesh, [&](std::uint32_t face) { pushConstants(commands, pipeline, mesh.faces[face]); });
 }
 
 } // namespace relief

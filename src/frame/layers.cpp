@@ -44,20 +44,16 @@ void Renderer::Parts::layerValuesPass(VkCommandBuffer commands, const Frame& fra
     barrier(commands);
 }
 
-/// The surface of the picture at the same rates, with one sample per pixel. Vertices of a diced mesh belong to several
-/// faces, which layers keep apart: there the grid draws the same surface.
+/// The triangles of the picture with one sample per pixel. Vertices of a diced mesh belong to several faces, which
+/// layers keep apart: it is drawn face by face.
 void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
     // Targets are made when layers are first asked for.
     if (!layerTargets) layerTargets = makeLayerTargets(device, desc);
     if (frame.hasInstances() && !layerTargets->instances)
         layerTargets->instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_1_BIT);
 
-    // The instances of the picture again, with other targets, and as grids where they were diced.
-    const bool wasDiced = frame.path == Path::dice;
-    if (wasDiced) frame.path = Path::grid;
-    FrameStats ignored;
+    // The instances of the picture again, with other targets.
     for (Drawn& drawn : frame.drawn) {
-        if (wasDiced && drawn.surface != nullptr) makePlan(frame, drawn, ignored);
         drawn.inputs.targets.layers = layerTargets->values.address;
         drawn.bindings[kBindDepths].view = layerTargets->depths.view.get();
         drawn.bindings[kBindNormals].view = layerTargets->normals.view.get();

@@ -42,7 +42,9 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
         stages.push_back(ofSurface ? shaderStage(device, stage, file, *drawn.surface)
                                    : shaderStage(device, stage, file));
     };
-    if (drawn.surface == nullptr || frame.path == Path::dice) {
+    if (drawn.surface != nullptr && frame.path == Path::dice && pass == DrawPass::layers) {
+        add(VK_SHADER_STAGE_VERTEX_BIT, "diced_layers.vert", isTriangles);
+    } else if (drawn.surface == nullptr || frame.path == Path::dice) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", false);
     } else if (frame.path == Path::grid) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "grid.vert", true);

@@ -100,8 +100,9 @@ struct Renderer::Parts {
     [[nodiscard]] const Buffer& gridOf(const SurfaceModel& model, const DrawBatch& batch) const;
     void draw(Rendering& rendering, const Frame& frame, DrawPass pass);
     void drawPatches(VkCommandBuffer commands, const Drawn& drawn, DrawPass pass);
-    void drawGrids(VkCommandBuffer commands, const Drawn& drawn, const Pipeline& pipeline, DrawPass pass);
+    void drawGrids(Rendering& rendering, const Drawn& drawn, const Pipeline& pipeline, DrawPass pass);
     static void drawDiced(Rendering& rendering, const Frame& frame, const Drawn& drawn, const Pipeline& pipeline);
+    static void drawDicedFaces(Rendering& rendering, const Drawn& drawn, const Pipeline& pipeline);
     Rendering begin(VkCommandBuffer commands, const Frame& frame, Rendering::Targets all) const;
 
     // Passes.

@@ -42,4 +42,13 @@ void Rendering::drawMesh(std::uint32_t first, std::uint32_t count) {
     }
 }
 
+void Rendering::drawGrids(std::uint32_t trianglesEach, std::uint32_t first, std::uint32_t count) {
+    while (count > 0) {
+        if (room_ < std::min(trianglesEach, most_)) restart();
+        const std::uint32_t part = std::clamp(room_ / trianglesEach, 1u, count);
+        vkCmdDrawIndexed(commands_, 3 * trianglesEach, part, 0, 0, first);
+        first += part, count -= part, room_ -= std::min(room_, part * trianglesEach);
+    }
+}
+
 } // namespace relief

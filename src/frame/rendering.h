@@ -40,6 +40,8 @@ public:
     [[nodiscard]] VkCommandBuffer commands() const { return commands_; }
     /// Triangles of the bound indices; where they are more than the device should keep it finishes some in between.
     void drawMesh(std::uint32_t first, std::uint32_t count);
+    /// Instances [first, first + count) of the first triangles of the bound indices, in as many draws.
+    void drawGrids(std::uint32_t trianglesEach, std::uint32_t first, std::uint32_t count);
     void end();
 
 private:

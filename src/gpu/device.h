@@ -61,9 +61,9 @@ struct DeviceTraits {
     /// Tessellated vertices that one draw should not exceed. Mesa's CPU driver resets every vertex id of a draw at each
     /// flush, so its time grows with the square (`relief_bench split` measures it); other devices want one large draw.
     std::uint32_t tessellatedVerticesPerDraw = 0xffffffffu;
-    /// Triangles of a finished mesh that should be drawn at most between two barriers. Mesa's CPU driver keeps those
-    /// that it has not rasterized (64 scenes of 36 MiB at most, in lp_scene.h and lp_setup_context.h of a later Mesa),
-    /// and fetching vertices is faster than its rasterizer; where vertices are computed it is not.
+    /// Triangles of a finished mesh or of grids that should be drawn at most between two barriers. Mesa's CPU driver
+    /// keeps those that it has not rasterized, about 400 bytes each (64 scenes of 36 MiB at most, in lp_scene.h and
+    /// lp_setup_context.h of a later Mesa): making vertices is faster than its rasterizer.
     std::uint32_t meshTrianglesInFlight = 0xffffffffu;
     float timestampNanoseconds = 0; ///< per tick; 0 where the queue cannot time
     bool countsPipeline = false;    ///< pipeline statistics

@@ -7,7 +7,7 @@
 namespace relief {
 namespace {
 
-constexpr int kCoarseIsolation = 2;               ///< enough to find the heights of a face
+constexpr int kMeasuredIsolation = 2;             ///< enough to find the heights of a face
 constexpr std::size_t kMeasuredPoints = 1u << 16; ///< of all faces and times together, as far as every face has 3 x 3
 constexpr double kMargin = 1.25;                  ///< of a bound that is measured
 constexpr double kStepShare = 1.0 / 8192;         ///< of slopes: of the diagonal of the cage's box
@@ -129,7 +129,7 @@ void measureFunction(Device& device, LoadedObject& object, const HeightDesc& des
     // Points all over the surface at rest.
     Cage rest = object.cage;
     if (!object.restPositions.empty()) rest.positions = object.restPositions;
-    const ReferenceSurface surface(rest, {.scheme = object.options.scheme, .isolation = kCoarseIsolation});
+    const ReferenceSurface surface(rest, {.scheme = object.options.scheme, .isolation = kMeasuredIsolation});
     const std::vector<MeasuredPoint> points = spreadPoints(surface, kMeasuredPoints / std::max(times.size(), 1ul));
     std::vector<FunctionPoint> given = toFunctionPoints(surface, points, heights.unit);
 

@@ -33,6 +33,7 @@ struct Work {
     std::size_t regularCount = 0;
     std::vector<TriangleTile> rings, cells; ///< triangles at edges, triangles between inner samples
     std::vector<std::uint32_t> firstTriangles, faceRates;
+    std::vector<std::uint32_t> firstInsides; ///< vertex of each face
     std::uint64_t vertexCount = 0, triangleCount = 0, sampleCount = 0;
     std::uint32_t maxRate = 0;
 };
@@ -47,6 +48,7 @@ public:
         for (std::uint32_t face = 0; face < model_.faces.size(); ++face) {
             work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
             work_.faceRates.push_back(0);
+            work_.firstInsides.push_back(std::uint32_t(work_.vertexCount));
             if (model_.faces[face].root != kNoPatch) addFace(face);
         }
         work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
@@ -72,7 +74,7 @@ private:
         work_.faceRates.back() = std::uint32_t(std::ceil(f.largestRate));
         work_.maxRate = std::max(work_.maxRate, work_.faceRates.back());
         const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount)});
-        const auto firstVertex = std::uint32_t(work_.vertexCount);
+        const std::uint32_t firstVertex = work_.firstInsides.back();
         const auto sides = std::uint32_t(model_.sideCount);
         const uvec2 lattice = formulas::latticeSegments(sides, f.sides[0], f.sides[1], f.sides[2], f.sides[3]);
         // A face of one segment per side has no lattice: all its triangles are at edges.
@@ -268,6 +270,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     const Work work = WorkBuilder(model, table, rates).build();
     checkMemory(device, byteCountOf(work, options), work, options.memory);
     DicedMesh mesh = allocateMesh(device, work, options);
+    if (options.wantsFaces) mesh.faces = facePushes(table, model, rates, work.runFirsts, work.firstInsides);
 
     // What the shaders read.
     std::vector<std::uint32_t> tiles;

@@ -127,6 +127,37 @@ DiceTable makeDiceTable(Device& device, const SurfaceModel& model) {
     return table;
 }
 
+namespace {
+
+/// First vertices in place of the numbers of runs. Slots that a face does not use hold run 0.
+FaceRuns firstVertices(FaceRuns runs, std::span<const std::uint32_t> runFirsts) {
+    for (uint& run : runs.corners) run = runFirsts[run];
+    for (uint& run : runs.middles) run = runFirsts[run];
+    for (uint& run : runs.sides) run = runFirsts[run];
+    return runs;
+}
+
+} // namespace
+
+std::vector<DicedFacePush> facePushes(const DiceTable& table, const SurfaceModel& model, const EdgeRates& rates,
+                                      std::span<const std::uint32_t> runFirsts,
+                                      std::span<const std::uint32_t> firstInsides) {
+    std::vector<DicedFacePush> pushes(model.faces.size());
+    for (std::uint32_t face = 0; face < pushes.size(); ++face) {
+        DicedFacePush& push = pushes[face];
+        push = {
+            .face = face, .firstInside = firstInsides[face], .runs = firstVertices(table.faceRuns[face], runFirsts)};
+        for (int side = 0; side < model.sideCount; ++side) {
+            const std::uint32_t entry = model.faces[face].sides[side], edge = entry & kSideEdgeMask;
+            const std::uint32_t halves = (entry & kSideSplit) != 0 ? 2 : 1;
+            push.sides[side] = entry;
+            push.segments[side] = halves * rates.segments(edge);
+            push.rates[side] = float(halves) * rates.rates[edge];
+        }
+    }
+    return pushes;
+}
+
 std::vector<char> boundaryVertices(const DiceTable& table, const SurfaceModel& model, const DicedMesh& mesh) {
     std::vector<char> isOnBoundary(mesh.vertexCount, 0);
     for (std::size_t i = 0; i < table.runs.size(); ++i) {

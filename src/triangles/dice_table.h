@@ -19,6 +19,11 @@ struct DiceTable {
 /// coordinates differ.
 DiceTable makeDiceTable(Device& device, const SurfaceModel& model);
 
+/// How the vertices of each face are numbered, by the first vertices of runs and of the insides of faces.
+std::vector<DicedFacePush> facePushes(const DiceTable& table, const SurfaceModel& model, const EdgeRates& rates,
+                                      std::span<const std::uint32_t> runFirsts,
+                                      std::span<const std::uint32_t> firstInsides);
+
 /// One per vertex of a diced mesh: whether it lies on an edge of the cage that has one drawn face.
 std::vector<char> boundaryVertices(const DiceTable& table, const SurfaceModel& model, const DicedMesh& mesh);
 

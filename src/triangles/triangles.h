@@ -6,6 +6,7 @@
 #include <span>
 
 #include "model/model.h"
+#include "shared/push.h"
 
 namespace relief {
 
@@ -123,6 +124,7 @@ struct DicedMesh {
     std::vector<std::uint32_t> firstTriangles; ///< of each face; one more at the end
     std::vector<std::uint32_t> faceRates;      ///< the largest around each face
     std::vector<std::uint32_t> runFirsts;      ///< first vertex of each run along edges; one more at the end
+    std::vector<DicedFacePush> faces;          ///< where vertices lie in each face; empty unless asked for
     std::uint64_t sampleCount = 0;             ///< distinct samples
     std::uint32_t vertexCount = 0, triangleCount = 0, maxRate = 0;
     bool hasTexCoords = false;
@@ -134,6 +136,7 @@ struct DicedMesh {
 struct DiceOptions {
     NormalKind normal = NormalKind::full;
     bool wantsTexCoords = false, wantsTexGradients = false;
+    bool wantsFaces = false; ///< DicedMesh::faces: 120 bytes of host memory per face
     std::optional<std::uint64_t> memory;
     bool timesVertices = false; ///< apart from the triangles: one more wait for the device
 };

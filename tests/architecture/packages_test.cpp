@@ -24,6 +24,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glslang", "glslang-dev"},
+    {"spirv-opt", "glslang-tools"}, // through spirv-tools, which it depends on
     {"glm/glm.hpp", "libglm-dev"},
     {"tiny_gltf.h", "libtinygltf-dev"},
     {"OpenImageIO/imageio.h", "libopenimageio-dev"},
@@ -50,7 +51,7 @@ Names packages() {
 /// `file:line` of everything that CMake's files look for, by its name.
 std::map<std::string, std::string> soughtNames() {
     static const std::regex call(
-        R"(^\s*(?:need|find_package|find_program|find_path|find_library)\(\s*(?:\w+_\w+ |GLSLANG )?([\w./]+))");
+        R"(^\s*(?:need|find_package|find_program|find_path|find_library)\(\s*(?:\w+_\w+ |GLSLANG )?([\w./-]+))");
     std::vector<Line> lines = linesOf(kProject, "CMakeLists.txt");
     for (const Line& line : linesBelow(kProject, "src"))
         if (line.file.ends_with(".cmake")) lines.push_back(line);

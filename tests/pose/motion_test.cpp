@@ -137,6 +137,57 @@ TEST_F(Motion, ofAShearIsExactWhateverTheRates) {
     EXPECT_LT(worst, 0.02);
 }
 
+/// Every kind of side that a face can have: of two edges, run backwards, of triangles, with creases.
+struct ShearedCage {
+    const char* name;
+    Cage cage;
+    Spacing spacing = Spacing::equal;
+    Scheme scheme = Scheme::catmark;
+};
+std::vector<ShearedCage> shearedCages() {
+    return {{"torus", torusWithSeams(), Spacing::fractional},
+            {"prism", nGonPrism(5)},
+            {"mixed", mixedFaces(), Spacing::fractional},
+            {"creases", creasedCube()},
+            {"loop", icosahedron(), Spacing::fractional, Scheme::loop}};
+}
+
+// Motion is evaluated at the (u,v) that a pixel sees in its face: a vertex of a diced mesh, which several faces share,
+// has another one in each of them.
+TEST_F(Motion, ofAShearIsExactOnDicedFacesOfEveryKind) {
+    Renderer renderer(device(), {.width = kSide, .height = kSide});
+    const mat3 shear(1.2f, 0, 0.3f, 0.2f, 0.8f, 0, 0, 0.3f, 1);
+    const glm::dmat3 back = glm::inverse(glm::dmat3(shear));
+    for (const ShearedCage& one : shearedCages()) {
+        const Surface surface = buildSurface(one.cage, {.scheme = one.scheme, .isolation = 3});
+        SurfaceModel model(device(), {.surface = &surface, .cagePositions = one.cage.positions});
+        Poser poser(device(), model, {.surface = &surface, .keepsBefore = true});
+        const Pose now = poseOf(moved(one.cage.positions, shear, vec3(0))), before = poseOf(one.cage.positions);
+        poser.pose(now, &before);
+        RenderOptions options;
+        options.camera = cameraFor(one.cage);
+        options.camera.eye *= 1.3;
+        options.bounds = poser.bounds();
+        fitDepth(options.camera, options.bounds);
+        options.layers = {Layer::motion};
+        options.path = Path::dice;
+        options.spacing = one.spacing;
+        options.edgePixels = 1.5;
+        const Picture picture = renderer.render(model, options);
+        double worst = 0, longest = 0;
+        const int count = eachPixel(picture, [&](const dvec2& pixel, const float* values) {
+            const dvec3 seen = pointAt(options.camera, pixel.x, pixel.y, values[kLayerDepth]);
+            const dvec2 expected = pixel - pixelOf(options.camera, back * seen);
+            const dvec2 motion(values[kLayerMotion], values[kLayerMotion + 1]);
+            worst = std::max(worst, glm::length(motion - expected));
+            longest = std::max(longest, glm::length(motion));
+        });
+        EXPECT_GT(count, 500) << one.name;
+        EXPECT_GT(longest, 3) << one.name;
+        EXPECT_LT(worst, 0.05) << one.name;
+    }
+}
+
 TEST_F(Motion, ofAStillPoseIsNone) {
     MovingScene scene(cubeOfIslands());
     const Pose still = poseOf(scene.cage.positions);
