@@ -60,10 +60,10 @@ int makeNormalMapFile(const NormalMapArgs& args) {
                                 .wrap = args.wrap,
                                 .limits = {}};
     const HeightMap heights = loadHeightMap(args.source, options, makeWarn(args.isQuiet)).decoded;
-    const MapSize size = args.size.value_or(defaultMapSize(heights.width, heights.height));
+    const MapSize size = args.size.value_or(computeMapSize(heights.width, heights.height));
     const NormalMap normals = computeNormalMap(heights, size);
     writeImage(args.target, toCodes(normals, args.y), sample);
-    const double steepest = steepestSlope(normals);
+    const double steepest = computeSteepestSlope(normals);
     if (args.isJson)
         printJson({{"output", args.target},
                    {"width", normals.width},
@@ -148,8 +148,8 @@ int makeHeightMapFile(const HeightMapArgs& args) {
     std::vector<std::string> warnings;
     const Warn collect = [&](const std::string& line) { warnings.push_back(line); };
     const NormalMap normals = loadNormalMap(args.source, {.y = args.y, .wrap = args.wrap, .limits = {}}, collect);
-    const MapSize size = args.size.value_or(defaultMapSize(normals.width, normals.height));
-    const IntegrationOptions options{.size = size, .rounding = slopeRounding(readImageInfo(args.source))};
+    const MapSize size = args.size.value_or(computeMapSize(normals.width, normals.height));
+    const IntegrationOptions options{.size = size, .rounding = computeSlopeRounding(readImageInfo(args.source))};
     const IntegratedHeights result = integrateNormals(normals, options, args.source);
     const Warn warn = makeWarn(args.isQuiet);
     for (const std::string& line : warnings) warn(line);

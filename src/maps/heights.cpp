@@ -185,7 +185,7 @@ Fit chooseFit(const NormalMap& map, const dvec2& texel, double smoothness) {
 
 } // namespace
 
-double slopeRounding(const ImageInfo& info) {
+double computeSlopeRounding(const ImageInfo& info) {
     const double step = info.sample == "uint8"    ? 2.0 / 255
                         : info.sample == "uint16" ? 2.0 / 65535
                         : info.sample == "half"   ? 2.0 / 2048

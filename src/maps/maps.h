@@ -8,19 +8,19 @@ namespace relief {
 /// The true size of the unit square of texture space, in the units of heights. Both are above 0.
 using MapSize = dvec2;
 
-/// Square texels, and a width of 1.
-MapSize defaultMapSize(int width, int height);
+/// Returns the size of a map of square texels whose width is 1.
+MapSize computeMapSize(int width, int height);
 
 /// Makes the tangent-space normals n ~ (-h_x, -h_y, 1) of a height map at its texel centres. The slopes are central
 /// differences over one texel, as sampleHeight and the shaders take them, per true length: h_x = h_s / size.x along s,
 /// h_y = h_t / size.y along t. Beyond the border the map continues by its own wrap.
 NormalMap computeNormalMap(const HeightMap& heights, const MapSize& size);
 
-/// Codes (n + 1) / 2 of normals, three channels. With NormalY::down the second one is that of -n.y.
+/// Encodes normals as codes (n + 1) / 2 in three channels. With NormalY::down the second one is that of -n.y.
 Image toCodes(const NormalMap& map, NormalY y);
 
-/// The steepest slope of a tangent-space map: the angle between a normal and the z axis, degrees.
-double steepestSlope(const NormalMap& map);
+/// Finds the steepest slope of a tangent-space map: the largest angle between a normal and the z axis, degrees.
+double computeSteepestSlope(const NormalMap& map);
 
 /// Heights whose slopes come nearest to those of normals, and how near.
 struct IntegratedHeights {
@@ -31,12 +31,12 @@ struct IntegratedHeights {
     [[nodiscard]] double residualShare() const { return slopeRms > 0 ? residualRms / slopeRms : 0; }
 };
 
-/// The standard deviation of the slopes of normals that a file's samples round; 0 for floats of 32 bits and more.
-double slopeRounding(const ImageInfo& info);
+/// Computes the standard deviation of slopes of normals that a file's samples round; 0 for floats of 32 bits and more.
+double computeSlopeRounding(const ImageInfo& info);
 
 struct IntegrationOptions {
     MapSize size{1};     ///< of the unit square
-    double rounding = 0; ///< slopeRounding of the file
+    double rounding = 0; ///< computeSlopeRounding of the file
 };
 
 /// Integrates a tangent-space map: the least-squares solution of "the central differences of h are the slopes

@@ -6,7 +6,7 @@
 
 namespace relief {
 
-MapSize defaultMapSize(int width, int height) { return {1, double(height) / width}; }
+MapSize computeMapSize(int width, int height) { return {1, double(height) / width}; }
 
 NormalMap computeNormalMap(const HeightMap& map, const MapSize& size) {
     RELIEF_CHECK(size.x > 0);
@@ -38,7 +38,7 @@ Image toCodes(const NormalMap& map, NormalY y) {
     return image;
 }
 
-double steepestSlope(const NormalMap& map) {
+double computeSteepestSlope(const NormalMap& map) {
     double steepest = 0;
     for (const vec3& n : map.normals)
         steepest = std::max(steepest, std::atan2(std::hypot(double(n.x), double(n.y)), double(n.z)));

@@ -131,6 +131,44 @@ TEST_F(MapVerbs, sayWhatCannotRepeat) {
     EXPECT_FALSE(contains(clamped.err, "not integrable: 100.00 %")) << clamped.err;
 }
 
+/// The root mean square of the angle between the normals of two pictures, degrees.
+double angleBetween(const std::string& one, const std::string& other) {
+    const Image a = readImage(one), b = readImage(other);
+    const std::vector<std::string> names = readImageInfo(one).channelNames;
+    const auto normalAt = [&](const Image& image, int x, int y) {
+        dvec3 n;
+        for (int k = 0; k < 3; ++k) {
+            const auto channel = std::ranges::find(names, std::string("N.") + "XYZ"[k]) - names.begin();
+            n[k] = image.at(x, y)[channel];
+        }
+        return n;
+    };
+    double sum = 0, count = 0;
+    for (int y = 0; y < a.height; ++y)
+        for (int x = 0; x < a.width; ++x) {
+            const dvec3 u = normalAt(a, x, y), v = normalAt(b, x, y);
+            if (glm::length(u) < 0.9 || glm::length(v) < 0.9) continue; // background
+            sum += std::pow(glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v))), 2);
+            ++count;
+        }
+    EXPECT_GT(count, 1000);
+    return std::sqrt(sum / count);
+}
+
+TEST_F(MapVerbs, shadeAsBumpDoes) {
+    writeImage(heights, waveImage(128, 128), SampleType::real);
+    const std::string view = "--scale 4 --azimuth 20 --elevation 60 --layers normal --size 96,96 --rate 2 -q";
+    const std::string plane = cagePath("plane"); // 2 by 2
+    expectDone(relief({"render", plane, "--height", heights, "--detail", "bump", "-o", folder / "bump.exr"}, view));
+    for (const std::string& bits : {std::string("8"), std::string("16")}) {
+        const std::string map = normals("n.png", "--scale 4 --size 2,2 --bits " + bits);
+        expectDone(relief({"render", plane, "--normal-map", map, "-o", folder / "n.exr"}, view));
+        EXPECT_LT(angleBetween(folder / "bump.exr", folder / "n.exr"), 0.5) << bits;
+    }
+    expectDone(relief({"render", plane, "-o", folder / "flat.exr"}, view));
+    EXPECT_GT(angleBetween(folder / "bump.exr", folder / "flat.exr"), 5) << "there is something to see";
+}
+
 // --- bad input ----------------------------------------------------------------------------------------------------
 
 TEST_F(MapVerbs, refusePicturesThatHoldNoNormals) {

@@ -190,7 +190,7 @@ TEST(HeightsOfNormals, ofEightBitsHaveNoPatternOfTexels) {
         const HeightMap waves = heightsOf(
             256, 256, wrap, [](double s, double t) { return 0.003 * std::sin(2 * kPi * s) * std::sin(4 * kPi * t); });
         const NormalMap codes = rounded(computeNormalMap(waves, {1, 1}), 255);
-        const double rounding = slopeRounding({.sample = "uint8"});
+        const double rounding = computeSlopeRounding({.sample = "uint8"});
         EXPECT_NEAR(rounding, 2 / 255.0 / std::sqrt(12.0), 1e-12);
         const IntegratedHeights smooth = integrate(codes, {.rounding = rounding}), exact = integrate(codes);
         EXPECT_LT(roughness(smooth.heights), 5 * roughness(waves));
@@ -200,9 +200,9 @@ TEST(HeightsOfNormals, ofEightBitsHaveNoPatternOfTexels) {
 }
 
 TEST(HeightsOfNormals, ofFloatsAreNotSmoothed) {
-    EXPECT_EQ(slopeRounding({.sample = "float"}), 0);
-    EXPECT_EQ(slopeRounding({.sample = "double"}), 0);
-    EXPECT_GT(slopeRounding({.sample = "half"}), slopeRounding({.sample = "uint16"}));
+    EXPECT_EQ(computeSlopeRounding({.sample = "float"}), 0);
+    EXPECT_EQ(computeSlopeRounding({.sample = "double"}), 0);
+    EXPECT_GT(computeSlopeRounding({.sample = "half"}), computeSlopeRounding({.sample = "uint16"}));
 }
 
 // --- bad input ----------------------------------------------------------------------------------------------------

@@ -77,12 +77,12 @@ TEST(NormalsOfHeights, haveCodesWithEitherDirectionOfY) {
 
 TEST(NormalsOfHeights, sayHowSteepTheyAre) {
     const NormalMap map = normalsOf(3, 1, Wrap::repeat, [](int i, int) { return dvec2(0.6 * i, -0.4 * i * i); });
-    EXPECT_NEAR(steepestSlope(map), glm::degrees(std::atan(2.0)), 1e-4);
+    EXPECT_NEAR(computeSteepestSlope(map), glm::degrees(std::atan(2.0)), 1e-4);
 }
 
 TEST(NormalsOfHeights, haveSquareTexelsByDefault) {
-    EXPECT_EQ(defaultMapSize(512, 128), dvec2(1, 0.25));
-    EXPECT_EQ(defaultMapSize(100, 300), dvec2(1, 3));
+    EXPECT_EQ(computeMapSize(512, 128), dvec2(1, 0.25));
+    EXPECT_EQ(computeMapSize(100, 300), dvec2(1, 3));
 }
 
 } // namespace

@@ -147,12 +147,14 @@ TEST(Tangents, areAnyFrameWhereTheTextureHasNoArea) {
 TEST(Tangents, ignoreDegenerateTriangles) {
     DenseMesh mesh = makeGrid(2, [](const dvec2& xy) { return 0.25 * xy; });
     const Tangents before = computeTangents(mesh);
-    // One without area in space, one without area in the texture, one that names a vertex twice, and a lone vertex.
+    // One without area in space whose corners lie on both sides of vertex 4, one without area in the texture, one that
+    // names a vertex twice, and a lone vertex.
     const auto first = std::uint32_t(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), {mesh.positions[4], vec3(7, 8, 9), vec3(1, 1, 1)});
-    mesh.texCoords.insert(mesh.texCoords.end(), {vec2(9, 3), mesh.texCoords[4], vec2(0)});
-    mesh.normals.insert(mesh.normals.end(), {vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, -1)});
-    mesh.indices.insert(mesh.indices.end(), {4, 5, first, 4, 5, first + 1, 4, 4, 5});
+    const vec3 middle = mesh.positions[4], aside(0.5f, 0.25f, 1);
+    mesh.positions.insert(mesh.positions.end(), {middle - aside, middle + aside, vec3(7, 8, 9), vec3(1, 1, 1)});
+    mesh.texCoords.insert(mesh.texCoords.end(), {vec2(9, 3), vec2(4, 8), mesh.texCoords[4], vec2(0)});
+    mesh.normals.insert(mesh.normals.end(), {vec3(0, 1, 0), vec3(0, 1, 0), vec3(1, 0, 0), vec3(0, 0, -1)});
+    mesh.indices.insert(mesh.indices.end(), {4, first, first + 1, 4, 5, first + 2, 4, 4, 5});
     const Tangents after = computeTangents(mesh);
     for (std::size_t i = 0; i < before.ps.size(); ++i) {
         EXPECT_EQ(after.ps[i], before.ps[i]) << i;
