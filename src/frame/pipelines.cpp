@@ -43,7 +43,7 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
                                    : shaderStage(device, stage, file));
     };
     if (drawn.surface != nullptr && frame.path == Path::dice && pass == DrawPass::layers) {
-        add(VK_SHADER_STAGE_VERTEX_BIT, "diced_layers.vert", isTriangles);
+        add(VK_SHADER_STAGE_VERTEX_BIT, "diced_layers.vert", true);
     } else if (drawn.surface == nullptr || frame.path == Path::dice) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", false);
     } else if (frame.path == Path::grid) {
