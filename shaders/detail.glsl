@@ -42,17 +42,47 @@ vec3 turnedNormal(vec3 n, vec3 ps, float side) {
     return unitOrElse(c.x * tangent + c.y * side * cross(n, tangent) + c.z * n, n);
 }
 
+#ifdef RELIEF_HEIGHT_FUNCTION
+#include "function.glsl"
+
+// Gradient of the function's height along the surface, by central differences in two directions: over half a pixel, for samples
+// are that far apart, and at least over the step of vertices.
+vec3 functionGradient(vec3 n, vec3 gradientS, vec3 gradientT) {
+    float pixel = max(length(dFdx(vRest)), length(dFdy(vRest)));
+    float d = max(0.25 * pixel, inputs.model.heightStep);
+    vec3 first = normalize(abs(n.x) < 0.7 ? cross(n, vec3(1, 0, 0)) : cross(n, vec3(0, 1, 0)));
+    vec3 gradient = vec3(0);
+    for (uint i = 0u; i < 4u; ++i) {
+        vec3 direction = i < 2u ? first : cross(n, first);
+        float along = (i & 1u) == 0u ? d : -d;
+        vec3 local = kIsPlaced ? direction * inputs.view.normalToWorld : direction; // the transpose turns back
+        vec2 st = vTexCoord.xy + along * vec2(dot(gradientS, direction), dot(gradientT, direction));
+        gradient += heightOfFunction(vRest + along * local, st) / (2.0 * along) * direction;
+    }
+    return gradient;
+}
+#endif
+
 vec3 fragmentNormal() {
     if (!kHasSlopes && kNormalMap == kNormalMapNone) return vNormal;
     vec3 n = normalize(vNormal);
     if (kNormalMap == kNormalMapObject) return unitOrElse(worldNormal(mappedNormal()), n);
     vec3 gradientS = vGradientS.xyz, gradientT = vGradientT.xyz;
+#ifdef RELIEF_HEIGHT_FUNCTION
+    vec3 rise = kHasSlopes ? functionGradient(n, gradientS, gradientT) : vec3(0);
+    vec2 slopes = vec2(0);
+    vec3 bent = unitOrElse(n - rise, n);
+#else
     vec2 slopes = kHasSlopes ? missingSlopes() : vec2(0);
     vec3 bent = kHasSlopes ? unitOrElse(bumpedNormal(n, gradientS, gradientT, slopes), n) : n;
+#endif
     if (kNormalMap == kNormalMapNone) return bent;
     // p_s = (grad t x n) / (n . (grad s x grad t)); along the surface that the slopes stand for it rises by h_s.
     float density = dot(n, cross(gradientS, gradientT));
     if (density == 0.0) return bent;
+#ifdef RELIEF_HEIGHT_FUNCTION
+    slopes.x = dot(rise, cross(gradientT, n) / density);
+#endif
     return turnedNormal(bent, cross(gradientT, n) / density + slopes.x * n, sign(density));
 }
 #endif

@@ -17,6 +17,9 @@ vec4 emitVertex(uint face, vec2 uv, SampleLocation location, uint rate) {
     vHeight = s.h;
     vGradientS = kHasTexGradients ? worldGradient(s.gradientS) : vec4(0);
     vGradientT = kHasTexGradients ? worldGradient(s.gradientT) : vec4(0);
+#ifdef RELIEF_HEIGHT_FUNCTION
+    vRest = s.p;
+#endif
     vFace = kPass == kPassLayers ? face : cageFaceOf(face);
     vRate = rate;
     vec4 vertex = vec4(s.q, (location.flags & kOnBoundary) != 0u ? 1.0 : 0.0);

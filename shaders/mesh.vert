@@ -24,6 +24,9 @@ void main() {
     vHeight = vertex.w;
     vGradientS = kHasTexGradients ? worldGradient(meshTexGradients(2 * gl_VertexIndex)) : vec4(0);
     vGradientT = kHasTexGradients ? worldGradient(meshTexGradients(2 * gl_VertexIndex + 1)) : vec4(0);
+#ifdef RELIEF_HEIGHT_FUNCTION
+    vRest = vertex.xyz; // it is not displaced
+#endif
     // A draw of one face carries its number; a whole mesh in one draw shows patches of 64 vertices instead.
     vFace = push.isOneFace != 0u ? cageFaceOf(push.face) : uint(gl_VertexIndex) / 64u;
     vRate = max(push.rate, 1u);

@@ -10,3 +10,7 @@ layout(location = 4) flat RELIEF_VARYING uint vRate; // largest of the face's si
 // are those of the map.
 layout(location = 5) RELIEF_VARYING vec4 vGradientS;
 layout(location = 6) RELIEF_VARYING vec4 vGradientT;
+
+#ifdef RELIEF_HEIGHT_FUNCTION
+layout(location = 8) RELIEF_VARYING vec3 vRest; // the limit surface's point, for a function that bends normals
+#endif

@@ -39,8 +39,8 @@ layout(std430, set = 0, binding = 0) readonly buffer Points { float points[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer Values { uint values[]; };
 layout(push_constant) uniform Push { uint count; };
 )"
-    "#include \"height_function.glsl\"\n"
-    R"(
+                                        "#include \"height_function.glsl\"\n"
+                                        R"(
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= count) return;

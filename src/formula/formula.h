@@ -49,7 +49,8 @@ public:
     /// Differs from that of every other function of this process, and is not 0: for keys of pipelines.
     [[nodiscard]] std::uint32_t number() const;
 
-    /// SPIR-V of a stage of the folder shaders/ with this function in it; empty for a stage that evaluates no heights.
+    /// SPIR-V of a stage of the folder shaders/ with this function in it; empty for a stage that is
+    /// the same without it.
     [[nodiscard]] std::span<const std::uint32_t> shader(std::string_view file, bool isTriangles,
                                                         TableAccess access) const;
     /// SPIR-V of FunctionEvaluator's shader, which contains nothing else than the function.

@@ -11,23 +11,24 @@ namespace {
 
 constexpr std::string_view kBuiltInFolder = "functions/", kExtension = ".glsl";
 
-/// Whether a file of shaders/ includes the function, or one that it includes does.
-bool evaluatesHeights(std::string_view file, std::set<std::string_view>& seen) {
-    if (file == "height_function.glsl") return true;
+/// Whether a file of shaders/ includes the function, or hands on or takes what a function needs per fragment; or one
+/// that it includes does.
+bool dependsOnFunction(std::string_view file, std::set<std::string_view>& seen) {
+    if (file == "height_function.glsl" || file == "varyings.glsl") return true;
     const ShaderSource* source = findShaderSource(file);
     if (source == nullptr || !seen.insert(file).second) return false;
     constexpr std::string_view kInclude = "#include \"";
     for (std::size_t at = source->text.find(kInclude); at != std::string_view::npos;
          at = source->text.find(kInclude, at)) {
         at += kInclude.size();
-        if (evaluatesHeights(source->text.substr(at, source->text.find('"', at) - at), seen)) return true;
+        if (dependsOnFunction(source->text.substr(at, source->text.find('"', at) - at), seen)) return true;
     }
     return false;
 }
 
-bool evaluatesHeights(std::string_view file) {
+bool dependsOnFunction(std::string_view file) {
     std::set<std::string_view> seen;
-    return evaluatesHeights(file, seen);
+    return dependsOnFunction(file, seen);
 }
 
 } // namespace
@@ -110,7 +111,7 @@ const HeightFunction::Costs& HeightFunction::costs() const { return parts_->cost
 
 std::span<const std::uint32_t> HeightFunction::shader(std::string_view file, bool isTriangles,
                                                       TableAccess access) const {
-    if (!evaluatesHeights(file)) return {};
+    if (!dependsOnFunction(file)) return {};
     return parts_->shader({findShaderSource(file)->name, isTriangles, access}); // a name that lasts
 }
 

@@ -22,8 +22,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();
     if (row.bendsNormals) {
-        c.hasTexGradients = pictures.needTexGradients();
-        c.hasSlopes = pictures.slopes.has_value();
+        c.hasTexGradients = pictures.needTexGradients() || drawn.isBentByFunction();
+        c.hasSlopes = pictures.slopes.has_value() || drawn.isBentByFunction();
         c.normalMap = normalMapConstant(pictures);
     }
     if (pass == DrawPass::layers) {
@@ -31,7 +31,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     } else if (row.hasNormals) {
         c.show = frame.technique.constant;
         c.hasAlbedoMap = pass == DrawPass::surface && frame.technique.wantsAlbedo && pictures.albedo && c.hasTexCoords;
-        c.wantsTexCoords = c.hasAlbedoMap || (row.bendsNormals && pictures.needTexCoords());
+        c.wantsTexCoords =
+            c.hasAlbedoMap || (row.bendsNormals && (pictures.needTexCoords() || drawn.isBentByFunction()));
     }
     return c;
 }
@@ -42,10 +43,15 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
         stages.push_back(ofSurface ? shaderStage(device, stage, file, *drawn.surface)
                                    : shaderStage(device, stage, file));
     };
+<<<<<<< HEAD
     if (drawn.surface != nullptr && frame.path == Path::dice && pass == DrawPass::layers) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "diced_layers.vert", true);
     } else if (drawn.surface == nullptr || frame.path == Path::dice) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", false);
+=======
+    if (drawn.surface == nullptr || frame.path == Path::dice) {
+        add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", drawn.isBentByFunction());
+>>>>>>> h-formula
     } else if (frame.path == Path::grid) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "grid.vert", true);
     } else {
@@ -53,7 +59,8 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
         add(VK_SHADER_STAGE_TESSELLATION_CONTROL_BIT, "patch.tesc", true);
         add(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch.tese", true);
     }
-    if (const char* fragment = rowOf(pass).fragment) add(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, false);
+    if (const char* fragment = rowOf(pass).fragment)
+        add(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, drawn.isBentByFunction());
     return stages;
 }
 

@@ -50,6 +50,7 @@ struct Renderer::Parts {
         [[nodiscard]] const ModelPictures& pictures() const {
             return surface != nullptr ? surface->pictures : mesh->pictures;
         }
+        [[nodiscard]] bool isBentByFunction() const { return surface != nullptr && surface->functionBendsNormals; }
         [[nodiscard]] bool isTriangles() const { return surface != nullptr && surface->isTriangles(); }
     };
 

@@ -105,10 +105,11 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     // Points of the pose that the cage is in, and the bounds of its faces.
     const std::vector<vec3> refined = refinePoints(surface, desc.cagePositions);
     faceTexBoxes = relief::faceTexBoxes(surface);
-    faceHeightBounds = function ? std::vector<float>(surface.faces.size(), height->heightBound)
-                                : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
+    faceHeightBounds = function && !functionBendsNormals ? std::vector<float>(surface.faces.size(), height->heightBound)
+                                                         : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
     faceBounds = relief::faceBounds(surface, refined, faceHeightBounds);
-    if (enclosesVolume(surface) && !function) { // nothing bounds the slopes of a function
+    const bool movesByFunction = function && !functionBendsNormals;
+    if (enclosesVolume(surface) && !movesByFunction) { // nothing bounds the slopes of a function
         faceNormals = relief::faceNormals(surface, refined);
         normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
     }
@@ -128,6 +129,7 @@ void SurfaceModel::setFunction(const FunctionHeights& heights) {
     tables.heightUnit = float(heights.unit);
     tables.heightStep = heights.step;
     faceHeightRanges = heights.faceRanges;
+    functionBendsNormals = heights.bendsNormals;
 }
 
 void SurfaceModel::setPoints(PointSets other) {

@@ -26,6 +26,7 @@ struct FunctionHeights {
     double unit = 1;               ///< cage units per unit of positions
     float bound = 0;               ///< largest |h|; what is beyond it is clamped to it
     float step = 0;                ///< between the points that slopes are taken from, in positions
+    bool bendsNormals = false;     ///< per fragment, instead of moving the surface; only where the cage never moves
     std::vector<float> faceRanges; ///< per face: how far its heights differ, for the rates of edges; or empty
 };
 
@@ -103,6 +104,7 @@ struct SurfaceModel {
     pass::ModelTables tables{}; ///< where records begin; describe() fills in points and maps, Dicer what dicing needs
     std::optional<GpuHeightMap> height;
     std::shared_ptr<const HeightFunction> function; ///< null: heights are those of a map
+    bool functionBendsNormals = false;              ///< FunctionHeights::bendsNormals
     ModelPictures pictures;
     std::uint64_t byteCount = 0; ///< resident on the device: buffers and textures
 

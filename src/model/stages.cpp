@@ -97,7 +97,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
 
 ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
     return {.hasTexCoords = model.hasTexCoords,
-            .hasHeight = model.height.has_value(),
+            .hasHeight = model.height.has_value() && !model.functionBendsNormals,
             .normal = normal,
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),

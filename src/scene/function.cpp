@@ -111,6 +111,7 @@ void checkSize(const LoadedObject& object, double bound) {
 FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage) {
     FunctionHeights heights;
     heights.function = std::make_shared<const HeightFunction>(readHeightFunction(desc.height.function));
+    heights.bendsNormals = desc.height.detail == Detail::bump;
     heights.unit = cage.coordinates.unit;
     heights.scale = desc.height.scale.value_or(1) / heights.unit;
     heights.mid = desc.height.mid.value_or(0);
@@ -143,7 +144,7 @@ void measureFunction(Device& device, LoadedObject& object, const HeightDesc& des
         std::abs(heights.scale) * (stated ? *stated + std::abs(heights.mid) : kMargin * census.largest());
     checkSize(object, bound);
     heights.bound = float(bound);
-    heights.faceRanges = census.ranges(heights.scale);
+    if (!heights.bendsNormals) heights.faceRanges = census.ranges(heights.scale);
     if (!stated)
         warn(fmt::format(
             "{}: states no kBound; the largest height at {} points is {:.4g}, and heights are clamped to a "

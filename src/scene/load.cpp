@@ -28,9 +28,9 @@ Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
 /// What cannot work together, whatever the files hold.
 void checkUse(const ObjectDesc& desc, bool isDense) {
     const Detail detail = desc.height.detail;
-    if (!desc.height.function.empty() && (detail == Detail::bump || detail == Detail::both))
-        fail(Failure::usage, "{}: --detail {} takes its slopes from a height map; a function displaces",
-             desc.height.function, wordOf(kDetails, detail));
+    if (!desc.height.function.empty() && detail == Detail::both)
+        fail(Failure::usage, "{}: --detail both divides the mips of a height map; a function has none",
+             desc.height.function);
     if (isDense && !desc.height.function.empty())
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
@@ -108,6 +108,8 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     if (!desc.height.function.empty())
         object.function = loadFunction(desc, object.cage), object.detail = desc.height.detail;
     object.animation = loadAnimation(desc.motion, object.cage, warn);
+    if (object.animation && object.function && object.function->bendsNormals)
+        fail(Failure::usage, "{}: --detail bump by a function is for cages that nothing moves", desc.height.function);
 
     // Point caches and skins fit the cage as it is in its file, so that it is welded after them.
     if (desc.weld) weldObject(object, *desc.weld);

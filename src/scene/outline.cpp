@@ -6,7 +6,9 @@ namespace {
 std::vector<dvec3> positionsOf(const std::vector<vec3>& positions) { return {positions.begin(), positions.end()}; }
 
 /// Of heights by a function, which no map tells.
-double boundOf(const LoadedObject& object) { return object.function ? object.function->bound : 0; }
+double boundOf(const LoadedObject& object) {
+    return object.function && !object.function->bendsNormals ? object.function->bound : 0;
+}
 
 std::vector<vec3> positionsAt(const Animation& animation, double seconds) {
     return posedPositions(animation.rig(), animation.pose(seconds));

@@ -124,6 +124,31 @@ TEST_F(FunctionOption, movesWhatIsExported) {
     EXPECT_NE(readFile(mesh), displaced);
 }
 
+// --- bump
+
+TEST_F(FunctionOption, bendsNormalsWhereTheSurfaceStays) {
+    const auto draw = [&](const std::string& more) {
+        const std::string picture = target("bump.exr");
+        expectDone(relief({"render", cagePath("torus"), "--height-function", "golf", "-o", picture},
+                          "-q --size 128,128 --distance 5 --look-at 0,0,0 --no-shadows --show normal " + more));
+        return readImage(picture);
+    };
+    const Image flat = draw("--detail none --rate 32"), moved = draw("--scale 0.1 --rate 64 --path grid");
+    for (const char* path : {"tessellation", "grid", "dice"}) {
+        const Image bump = draw(std::string("--detail bump --scale 0.1 --rate 32 --path ") + path);
+        EXPECT_LT(meanDifference(bump, moved), 0.4 * meanDifference(flat, moved)) << path;
+        // As high as it may be, the outline stays.
+        const Image high = draw(std::string("--detail bump --scale 3 --rate 32 --path ") + path);
+        for (std::size_t i = 3; i < flat.texels.size(); i += 4) ASSERT_EQ(high.texels[i], flat.texels[i]) << path;
+        EXPECT_GT(meanDifference(high, flat), 3 * meanDifference(bump, flat)) << path;
+    }
+}
+
+TEST_F(FunctionOption, doesNotBendWhatMoves) {
+    expectRefused(render("golf", "--detail both"), Failure::usage, {"--detail both"});
+    expectRefused(render("golf", "--detail bump --deform twist(axis=y,angle=9)"), Failure::usage, {"nothing moves"});
+}
+
 // --- bounds
 
 TEST_F(FunctionOption, withoutABoundIsMeasuredAndSaysSo) {

@@ -151,10 +151,11 @@ TEST_F(HeightFunctions, mayDeclareNamesThatShadersHave) {
 
 TEST_F(HeightFunctions, areInTheShadersThatEvaluateHeightsAndInNoOthers) {
     const HeightFunction function({"test.glsl", kHeight});
-    for (const char* file : {"patch.tese", "patch_capture.tese", "grid.vert", "grid_capture.vert", "dice_edges.comp",
-                             "dice_insides.comp", "rates.comp", "sample.comp", "layers.comp"})
+    for (const char* file :
+         {"patch.tese", "patch_capture.tese", "grid.vert", "grid_capture.vert", "dice_edges.comp", "dice_insides.comp",
+          "rates.comp", "sample.comp", "layers.comp", "mesh.vert", "surface.frag"})
         EXPECT_FALSE(function.shader(file, false, TableAccess::texelBuffers).empty()) << file;
-    for (const char* file : {"patch.vert", "mesh.vert", "light.comp", "dice_triangles.comp", "pose_cage.comp"})
+    for (const char* file : {"patch.vert", "patch.tesc", "light.comp", "dice_triangles.comp", "pose_cage.comp"})
         EXPECT_TRUE(function.shader(file, false, TableAccess::texelBuffers).empty()) << file;
 }
 

@@ -239,7 +239,7 @@ TEST_F(DetailNormals, ofObjectSpaceAreTheMapsOwn) {
 
 // --- surfaces -------------------------------------------------------------------------------------------------------
 
-constexpr Path kAllPaths[] = {Path::tessellation, Path::grid, Path::dice};
+constexpr Path kDetailPaths[] = {Path::tessellation, Path::grid, Path::dice};
 
 /// A cube whose faces have islands of their own in the texture, one in two of them mirrored.
 Cage islands() {
@@ -289,7 +289,7 @@ TEST_F(DetailNormals, ofBumpsOnASurfaceAreBlinnsOnAllPaths) {
     const HeightMap map = sineMap(256, 0.03, 6);
     Islands& cube = cubeWithIslands();
     const SurfaceModel model(device(), {.surface = &cube.surface, .cagePositions = cube.cage.positions, .bump = &map});
-    for (const Path path : kAllPaths) {
+    for (const Path path : kDetailPaths) {
         RenderOptions options = bilinear();
         options.path = path;
         options.rate = 32;
@@ -311,7 +311,7 @@ TEST_F(DetailNormals, ofBothAreThoseOfTheFullMapAtEveryRate) {
         device(), {.surface = &cube.surface, .cagePositions = cube.cage.positions, .height = &map, .bump = &map});
     const SurfaceModel displaced(device(),
                                  {.surface = &cube.surface, .cagePositions = cube.cage.positions, .height = &map});
-    for (const Path path : kAllPaths) {
+    for (const Path path : kDetailPaths) {
         RenderOptions options = bilinear();
         options.path = path;
         for (const int rate : {32, 16, 8}) {
@@ -360,7 +360,7 @@ TEST_F(DetailNormals, ofNormalMapsFollowThePoseAndTheMirroredIslands) {
     Islands& cube = cubeWithIslands();
     const auto check = [&](const std::vector<vec3>& positions, const ReferenceSurface& reference) {
         const SurfaceModel model(device(), {.surface = &cube.surface, .cagePositions = positions, .normalMap = &map});
-        for (const Path path : kAllPaths) {
+        for (const Path path : kDetailPaths) {
             RenderOptions options = bilinear();
             options.path = path;
             options.rate = 16;
