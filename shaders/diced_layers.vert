@@ -74,6 +74,9 @@ void main() {
     vHeight = at.w;
     vGradientS = kHasTexGradients ? worldGradient(meshTexGradients(2u * vertex)) : vec4(0);
     vGradientT = kHasTexGradients ? worldGradient(meshTexGradients(2u * vertex + 1u)) : vec4(0);
+#ifdef RELIEF_HEIGHT_FUNCTION
+    vRest = at.xyz; // it is not displaced
+#endif
     vFace = push.face;
     vRate = 1u;
 }

@@ -43,15 +43,10 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
         stages.push_back(ofSurface ? shaderStage(device, stage, file, *drawn.surface)
                                    : shaderStage(device, stage, file));
     };
-<<<<<<< HEAD
     if (drawn.surface != nullptr && frame.path == Path::dice && pass == DrawPass::layers) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "diced_layers.vert", true);
     } else if (drawn.surface == nullptr || frame.path == Path::dice) {
-        add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", false);
-=======
-    if (drawn.surface == nullptr || frame.path == Path::dice) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", drawn.isBentByFunction());
->>>>>>> h-formula
     } else if (frame.path == Path::grid) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "grid.vert", true);
     } else {
