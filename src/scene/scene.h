@@ -115,7 +115,7 @@ struct LoadedObject {
     [[nodiscard]] const HeightMap* heightMap() const {
         return height && (detail == Detail::displacement || detail == Detail::both) ? &*height : nullptr;
     }
-    /// The function that moves the surface, or null.
+    /// The function that moves the surface or bends its normals, or null.
     [[nodiscard]] const FunctionHeights* functionHeights() const {
         return function && detail != Detail::none ? &*function : nullptr;
     }
