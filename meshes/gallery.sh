@@ -42,6 +42,36 @@ picture wireframe octopus --height "$maps/octopus.exr" --show wireframe --azimut
     --edge-pixels 10 --size 1280,800
 rm -f "$out/stats.json"
 
+# What heights can do besides: techniques side by side.
+compare() { # NAME CAGE HOW,HOW OPTIONS...
+    name=$1
+    cage=$2
+    how=$3
+    shift 3
+    "$relief" render "$meshes/$cage.obj" --compare "$how" "$@" -q -o "$out/$name.png"
+    echo "$out/$name.png"
+}
+compare compared torus bump,displacement,both,none --height "$maps/golf.exr" --rate 12 --elevation 30 --size 480,360
+compare silhouette ball bump,displacement --height "$maps/orange.exr" --scale 4 --rate 128 --path grid --size 480,480
+compare formula torus bump,displacement --height-function golf --scale 0.5 --rate 96 --path dice --elevation 30 --size 480,360
+# A moon by its colors, by a normal map made of its heights, and by both, lit from the left and from the right.
+"$relief" normal-map "$maps/moon.exr" --scale 0.8 --size 6.28,4.19 -q -o "$out/moon_normals.png"
+for side in left right; do
+    light=-45,15
+    [ $side = left ] || light=105,15
+    for what in colors normals both; do
+        set -- --rate 24 --elevation 12 --light $light --roughness 0.95 --no-shadows --background 0.02,0.02,0.03 --size 320,320
+        [ $what = normals ] || set -- "$@" --albedo "$maps/moon_albedo.png"
+        [ $what = colors ] || set -- "$@" --normal-map "$out/moon_normals.png"
+        "$relief" render "$meshes/ball.obj" "$@" -q -o "$out/moon_${side}_$what.png"
+    done
+done
+# Bumps towards the limb, by each filter.
+for filter in nearest bilinear mipmap anisotropic; do
+    "$relief" render "$meshes/ball.obj" --height "$maps/orange.exr" --scale 1.5 --detail bump --filter $filter --rate 24 \
+        --elevation 25 --fov 24 --roughness 0.35 --light 300,25 --no-shadows --size 300,300 -q -o "$out/filter_$filter.png"
+done
+
 # Per frame only the cage's 1958 points go to the device.
 "$relief" animate "$meshes/octopus.obj" --map-format unorm16 --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
     --deform "twist(axis=y, angle=35*sin(pi*t)) wave(axis=x, amplitude=0.035, wavelength=0.5, speed=0.25, along=y) \

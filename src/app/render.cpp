@@ -87,6 +87,18 @@ void report(const RenderArgs& args, const Drawn& drawn) {
     }
 }
 
+/// Techniques that are compared have one camera, which holds the displaced surface and the smooth one.
+std::vector<dvec3> outlineOf(LoadedObject& object, bool isCompared) {
+    if (!isCompared) return computeOutline(object);
+    const Detail detail = std::exchange(object.detail, Detail::none);
+    std::vector<dvec3> points = computeOutline(object);
+    object.detail = Detail::displacement;
+    const std::vector<dvec3> displaced = computeOutline(object);
+    points.insert(points.end(), displaced.begin(), displaced.end());
+    object.detail = detail;
+    return points;
+}
+
 /// Memory is freed as soon as it is not needed: the peak is that of the frame itself, not of what led to it.
 Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     // Loading a driver takes its time: it does so while files are read.
@@ -99,11 +111,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
         opened = opening.get();
         measureFunction(*opened, loaded.object, args.scene.object.height, {{loaded.object.time}}, warn);
     }
-    // Techniques that are compared have one camera, which holds the displaced surface.
-    const Detail detail = loaded.object.detail;
-    if (!args.compared.empty()) loaded.object.detail = Detail::displacement;
-    const std::vector<dvec3> points = computeOutline(loaded.object);
-    loaded.object.detail = detail;
+    const std::vector<dvec3> points = outlineOf(loaded.object, !args.compared.empty());
     progress.advance();
 
     // What the picture shows, and the model of it.
