@@ -1,5 +1,6 @@
 // relief: displaced subdivision surfaces on any Vulkan 1.3 device.
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -130,6 +131,9 @@ int main(int argc, char** argv) {
         endCleanlyOnInterrupt();
         return run(app::prepareWords(argc, argv));
     } catch (...) {
-        return faultOfCurrent();
+        const int code = faultOfCurrent();
+        // Memory that ran out while a library was loaded leaves the loader locked: exit() would wait for it for ever.
+        std::fflush(stdout);
+        _exit(code);
     }
 }
