@@ -15,8 +15,8 @@ layout(set = 0, binding = kBindNormalMap) uniform sampler2D normalMap;
 // Where (s,t) lies in a picture, whose rows go down.
 vec2 pictureCoordinates() { return vec2(vTexCoord.x, 1.0 - vTexCoord.y); }
 
-// Of mips, relative to the pixel: displaced triangles show what each of four samples per pixel meets, and these are half a
-// pixel apart.
+// Added to the mip level that fits a pixel: displaced triangles show what each of four samples per pixel meets, and these are
+// half a pixel apart.
 const float kSampleLevel = -1.0;
 
 // What the vertices' normals lack of the slopes (h_s, h_t) of the map, at the mip that fits the samples: all of them on a surface
@@ -27,12 +27,12 @@ vec2 missingSlopes() {
     return kHasHeight ? slopes - vec2(vGradientS.w, vGradientT.w) : slopes;
 }
 
-// What the normal map holds: a mean of unit normals, of any length.
+// The normal map at the fragment: a mean of unit normals, shorter than 1 where they differ.
 vec3 mappedNormal() { return texture(normalMap, pictureCoordinates()).xyz; }
 
 vec3 unitOrElse(vec3 m, vec3 n) { return dot(m, m) > 0.0 ? normalize(m) : n; }
 
-// The mapped normal in the frame of unit normal n: T along p_s, made perpendicular to n (interpolated and stretched tangents are
+// The mapped normal in the frame of the unit normal n: T along p_s, made perpendicular to n (interpolated and stretched tangents are
 // not), B = n x T on the side of p_t.
 vec3 turnedNormal(vec3 n, vec3 ps, float side) {
     vec3 tangent = ps - n * dot(n, ps);

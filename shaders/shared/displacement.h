@@ -43,8 +43,8 @@ RELIEF_SHARED_FUNCTION real3 firstOrderNormal(real3 n, real3 pu, real3 pv, real2
     return cross(pu, pv) + dh.x * cross(n, pv) - dh.y * cross(n, pu);
 }
 
-// The same divided by |p_s x p_t|, by (s,t): n - h_s grad s - h_t grad t, for p_t x n = |p_s x p_t| grad s and
-// n x p_s = |p_s x p_t| grad t. Mirrored texture coordinates need no other sign.
+// firstOrderNormal() by (s,t), divided by |p_s x p_t|: n - h_s grad s - h_t grad t, for p_t x n = |p_s x p_t| grad s
+// and n x p_s = |p_s x p_t| grad t. Mirrored texture coordinates need no other sign.
 RELIEF_SHARED_FUNCTION real3 bumpedNormal(real3 n, real3 gradientS, real3 gradientT, real2 slopes) {
     return n - slopes.x * gradientS - slopes.y * gradientT;
 }

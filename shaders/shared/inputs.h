@@ -30,10 +30,10 @@ struct ModelTables {
 
     float heightBound;      // largest |h|, cage units; 0 without heights
     float slopeUnit;        // what the numbers of kBindSlopes are multiplied with: cage units per unit of s and t
-    float heightTime;       // height functions: seconds,
-    float heightTimeBefore; // the same in the frame that motion is measured from,
-    float heightUnit;       // cage units per unit of positions,
-    float heightStep;       // and how far apart they are evaluated for slopes, in positions
+    float heightTime;       // height functions: time of this frame, seconds
+    float heightTimeBefore; // height functions: time of the frame that motion is measured from, seconds
+    float heightUnit;       // height functions: cage units per unit of positions
+    float heightStep;       // height functions: distance of differences to either side, in units of positions
     MapRecord maps[kMostMaps];
 };
 

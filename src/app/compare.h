@@ -13,7 +13,7 @@ struct Panel {
     std::string caption;
 };
 
-/// The panels in a row, each with its caption below it. Warns where there is no font for captions.
+/// Arranges panels in a row, each with its caption below it. Warns where there is no font for captions.
 Image arrangePanels(std::span<const Panel> panels, const Warn& warn);
 
 } // namespace relief::app

@@ -190,11 +190,8 @@ int compare(const RenderArgs& args) {
 
 int render(const RenderArgs& args) {
     checkPicturePath(args.target, args.picture);
-    if (!args.compared.empty()) {
-        checkOutput(args.target, listFiles(args.scene));
-        return compare(args);
-    }
     checkOutput(args.target, listFiles(args.scene));
+    if (!args.compared.empty()) return compare(args);
     Progress progress("rendering", 5, args.output.progress);
     const Warn warn = makeWarn(args.output.isQuiet);
     const Drawn drawn = draw(args, warn, progress);

@@ -179,7 +179,8 @@ struct FaceHeight {
     double h = 0, hu = 0, hv = 0;
 };
 
-/// The same displaced by a height from elsewhere; hs and ht of DisplacedFrame::height are its derivatives by u and v.
+/// Evaluates the surface displaced by a height that no map holds; hs and ht of DisplacedFrame::height are its
+/// derivatives by u and v.
 DisplacedFrame displacedFrame(const ReferenceSurface& surface, const FaceHeight& height, int face, const dvec2& uv);
 
 } // namespace relief

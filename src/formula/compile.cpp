@@ -142,10 +142,6 @@ void forbidContraction(std::vector<std::uint32_t>& words) {
     words.insert(words.begin() + std::ptrdiff_t(firstDecoration), added.begin(), added.end());
 }
 
-} // namespace
-
-namespace {
-
 std::vector<std::uint32_t> compile(const FunctionText& function, const IsolatedText& isolated,
                                    const ShaderRequest& request) {
     startCompiler();

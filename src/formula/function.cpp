@@ -71,7 +71,7 @@ HeightFunction::HeightFunction(FunctionText text) : parts_(std::make_unique<Part
 
 HeightFunction::~HeightFunction() = default;
 
-/// Of everything that decides what the compiler makes.
+/// Computes the digest of everything that decides what the compiler makes.
 Digest HeightFunction::Parts::digestOf(const ShaderRequest& request) const {
     static const Digest ofSources = [] {
         Digest digest = makeDigest();

@@ -108,7 +108,7 @@ enum class Layer {
     motion, ///< pixels since the frame before, x right and y down
 };
 
-/// How colour maps, normal maps and slopes of heights are looked up for a pixel.
+/// How color maps, normal maps and slopes of heights are looked up for a pixel.
 enum class Filter {
     nearest,     ///< the texel at its centre
     bilinear,    ///< between four texels around its centre

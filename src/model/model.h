@@ -25,7 +25,7 @@ struct FunctionHeights {
     double scale = 1, mid = 0;
     double unit = 1;               ///< cage units per unit of positions
     float bound = 0;               ///< largest |h|; what is beyond it is clamped to it
-    float step = 0;                ///< between the points that slopes are taken from, in positions
+    float step = 0;                ///< of slopes: distance of their points to either side, in units of positions
     bool bendsNormals = false;     ///< per fragment, instead of moving the surface; only where the cage never moves
     std::vector<float> faceRanges; ///< per face: how far its heights differ, for the rates of edges; or empty
 };

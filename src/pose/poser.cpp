@@ -66,7 +66,7 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
     const Surface& surface = *desc.surface;
     push.pointCount = surface.controlPointCount;
 
-    // Sets of points in one table: this pose, the one before where motion is asked for, rest where heights stretch.
+    // Sets of points in one table: this pose, the one before where motion is asked for, rest where heights need it.
     const auto setSize = std::uint32_t(surface.controlPointCount + surface.stencils.rowCount());
     const bool stretches = desc.heightSpace == HeightSpace::stretch, keepsRest = stretches || model.function != nullptr;
     const std::uint32_t setCount = 1 + (desc.keepsBefore ? 1 : 0) + (keepsRest ? 1 : 0);

@@ -17,7 +17,7 @@ struct MeasuredPoint {
     dvec2 uv{0};
 };
 
-/// The same for all faces, corners and edges included.
+/// Spreads about `count` points over all faces alike, corners and edges included.
 std::vector<MeasuredPoint> spreadPoints(const ReferenceSurface& surface, std::size_t count) {
     const double perFace = double(count) / std::max(surface.faceCount(), 1);
     const int side = std::max(int(std::sqrt(perFace)), 3);
@@ -33,7 +33,7 @@ std::vector<MeasuredPoint> spreadPoints(const ReferenceSurface& surface, std::si
     return points;
 }
 
-/// What the points of `surface` are to the function, at one time.
+/// What the function is given at these points of `surface`; times are left at 0.
 std::vector<FunctionPoint> toFunctionPoints(const ReferenceSurface& surface, std::span<const MeasuredPoint> points,
                                             double unit) {
     std::vector<FunctionPoint> given;
@@ -44,7 +44,7 @@ std::vector<FunctionPoint> toFunctionPoints(const ReferenceSurface& surface, std
     return given;
 }
 
-/// Checks values against what is stated, and keeps what is needed of them.
+/// Checks values against the stated bound, and keeps the largest one and the range on each face.
 class Census {
 public:
     Census(const HeightFunction& function, std::optional<double> stated, double mid, std::size_t faceCount)
@@ -53,18 +53,18 @@ public:
 
     void add(const MeasuredPoint& point, double time, const FunctionValue& found) {
         const double value = found.value;
-        const auto place = [&] {
+        const auto where = [&] {
             return fmt::format("at face {}, (u,v) = ({:.6g}, {:.6g}), t = {:.6g} s", point.face, point.uv.x, point.uv.y,
                                time);
         };
         if (found.hasTooManyTurns)
             fail(Failure::device, "{}: loops take more than {} turns {}: does one never end?", name_,
-                 kMostFunctionTurns, place());
+                 kMostFunctionTurns, where());
         if (!std::isfinite(value))
-            fail(Failure::input, "{}: height is {} {}", name_, std::isnan(value) ? NAN : value, place());
+            fail(Failure::input, "{}: height is {} {}", name_, std::isnan(value) ? NAN : value, where());
         if (stated_ && std::abs(value) > *stated_ * (1 + 1e-5))
             fail(Failure::input, "{}: height is {:.6g} {}, more than its bound {:.6g}: raise kBound or --height-bound",
-                 name_, value, place(), *stated_);
+                 name_, value, where(), *stated_);
         largest_ = std::max(largest_, std::abs(value - mid_));
         lowest_[std::size_t(point.face)] = std::min(lowest_[std::size_t(point.face)], value);
         highest_[std::size_t(point.face)] = std::max(highest_[std::size_t(point.face)], value);

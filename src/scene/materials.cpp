@@ -30,7 +30,7 @@ Image decodeTexture(const GltfTexture& texture) {
                        texture.name);
 }
 
-/// Colors of a picture; one of gray levels has the same three.
+/// Makes three channels of a picture of gray levels; others stay as they are.
 Image toColors(Image image) {
     if (image.channels >= 3) return image;
     Image colors{.width = image.width, .height = image.height, .channels = 3, .texels = {}};

@@ -5,7 +5,7 @@ namespace {
 
 std::vector<dvec3> positionsOf(const std::vector<vec3>& positions) { return {positions.begin(), positions.end()}; }
 
-/// Of heights by a function, which no map tells.
+/// The largest height of a function that moves the surface; 0 where none does.
 double boundOf(const LoadedObject& object) {
     return object.function && !object.function->bendsNormals ? object.function->bound : 0;
 }
