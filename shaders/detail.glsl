@@ -77,12 +77,16 @@ vec3 fragmentNormal() {
     vec3 bent = kHasSlopes ? unitOrElse(bumpedNormal(n, gradientS, gradientT, slopes), n) : n;
 #endif
     if (kNormalMap == kNormalMapNone) return bent;
-    // p_s = (grad t x n) / (n . (grad s x grad t)); along the surface that the slopes stand for it rises by h_s.
-    float density = dot(n, cross(gradientS, gradientT));
+    // p_s = (grad t x n) / (n . (grad s x grad t)); by the missing slope it rises along the normal of the limit surface, which both
+    // gradients are perpendicular to.
+    vec3 across = cross(gradientS, gradientT);
+    float density = length(across);
     if (density == 0.0) return bent;
+    float side = dot(n, across) < 0.0 ? -1.0 : 1.0; // -1 where texture coordinates are mirrored
+    vec3 ps = side / density * cross(gradientT, n);
 #ifdef RELIEF_HEIGHT_FUNCTION
-    slopes.x = dot(rise, cross(gradientT, n) / density);
+    slopes.x = dot(rise, ps);
 #endif
-    return turnedNormal(bent, cross(gradientT, n) / density + slopes.x * n, sign(density));
+    return turnedNormal(bent, ps + slopes.x * side / density * across, side);
 }
 #endif

@@ -79,8 +79,9 @@ vec2 ownTexCoords(uint face, vec2 uv) {
     return patchFrame(fetchPatch(leaf.patchIndex, inputs.model.pointsNow).texture, leaf.uv).p.xy;
 }
 
-// Gradients of s and t along the drawn surface x: with m = x_u x x_v, grad u = (x_v x m) / |m|^2 and grad v = (m x x_u) / |m|^2, and
-// grad s = s_u grad u + s_v grad v. They are 0 where the surface has no two directions: nothing bends the normal there.
+// What slopes along n bend the normal of the drawn surface x by: with m = x_u x x_v, (x_u + a n) x (x_v + b n) = m - |m| (a U + b V) for
+// U = (x_v x n) / |m| and V = (n x x_u) / |m|; by s and t instead of u and v, s_u U + s_v V and t_u U + t_v V. Where the surface is
+// not displaced n is its normal, and these are the gradients of s and t along it. They are 0 where the surface has no two directions: nothing bends the normal there.
 void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
     s.gradientS = s.gradientT = vec4(0);
     if (point.isStraight) return;
@@ -90,7 +91,8 @@ void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample h
     vec3 m = cross(xu, xv);
     float square = dot(m, m);
     if (!(square > 0.0)) return;
-    vec3 gradientU = cross(xv, m) / square, gradientV = cross(m, xu) / square;
+    float area = sqrt(square);
+    vec3 gradientU = cross(xv, point.n) / area, gradientV = cross(point.n, xu) / area;
     mat2 J = point.tex.jacobian;
     vec2 slopes = hasSlopes ? height.gradient / point.stretch : vec2(0);
     s.gradientS = vec4(point.stretch * (J[0].x * gradientU + J[1].x * gradientV), slopes.x);

@@ -20,6 +20,16 @@ const std::string& motionFile(const ObjectDesc& object) {
     return !motion.cachePath.empty() ? motion.cachePath : !motion.skinPath.empty() ? motion.skinPath : object.cage;
 }
 
+/// Times for what is measured of a height function: those of the keys, or else ten seconds, whichever frames are drawn.
+std::vector<double> steadyTimes(const Animation* animation) {
+    constexpr int kCount = 9;
+    dvec2 range = animation != nullptr ? animation->keyRange() : dvec2(0);
+    if (!(range.y > range.x) || !std::isfinite(range.y - range.x)) range = {0, 10};
+    std::vector<double> times;
+    for (int i = 0; i < kCount; ++i) times.push_back(glm::mix(range.x, range.y, double(i) / (kCount - 1)));
+    return times;
+}
+
 } // namespace
 
 double toSeconds(int frame, const MotionDesc& motion) { return frame / motion.cache.fps; }
@@ -54,7 +64,7 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
     }
     frames_ = listFrames(args, object.animation.get());
     device_ = std::make_unique<Device>(DeviceDesc{.name = args.picture.device});
-    measureFunction(*device_, object, desc.height, measuredTimes(), warn);
+    measureFunction(*device_, object, desc.height, measuredTimes(), warn, steadyTimes(object.animation.get()));
     placeScene();
     if (polygons_) object.dense = polygons_->makeMesh(toSeconds(frames_.front(), desc.motion));
     makeModel();

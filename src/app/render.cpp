@@ -174,6 +174,7 @@ int compare(const RenderArgs& args) {
         RenderArgs one = args;
         one.scene.object.height.detail = detail;
         const Drawn drawn = draw(one, warn, progress);
+        if (!drawn.complaint.empty()) warn(fmt::format("{}: {}", args.scene.object.cage, drawn.complaint));
         panels.push_back({displayed(drawn.picture, args.picture.finish), captionOf(detail, drawn.picture.stats)});
         reports.push_back(toJson(one, drawn));
         reports.back()["detail"] = wordOf(kDetails, detail);
@@ -212,6 +213,7 @@ void addCompare(CLI::App& app, std::vector<Detail>& compared) {
     };
     CLI::Option* option = app.add_option_function<std::vector<std::string>>(
         "--compare", set, "draw the view by each of these, side by side with their times; words as of --detail");
+    option->excludes(app.get_option("--detail"));
     listIn("height", "HOW,HOW", option->delimiter(',')->check(oneOf(words)));
 }
 

@@ -19,6 +19,9 @@ struct FunctionText {
 /// Files of more bytes are refused.
 inline constexpr std::uint64_t kMostFunctionBytes = 1u << 16;
 
+/// Words of SPIR-V, that of the evaluator included, of a function that is accepted.
+inline constexpr std::size_t kMostFunctionWords = 12000;
+
 /// Turns that all loops of one evaluation may take together. Every loop counts: one that never ends is an error, not a
 /// program that hangs. Mesa 22.3's CPU driver ends the loops of an invocation after 65,535 turns without a word, which
 /// this is far below.

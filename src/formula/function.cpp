@@ -66,7 +66,11 @@ HeightFunction::HeightFunction(FunctionText text) : parts_(std::make_unique<Part
     parts_->number = ++lastNumber;
     parts_->function = std::move(text);
     parts_->isolated = isolate(parts_->function);
-    parts_->shader({});
+    const std::size_t words = parts_->shader({}).size();
+    if (words > kMostFunctionWords)
+        fail(Failure::input,
+             "{}: it compiles to {} words of SPIR-V, {} are the most: drivers would compile for minutes",
+             parts_->function.name, words, kMostFunctionWords);
 }
 
 HeightFunction::~HeightFunction() = default;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -85,6 +86,8 @@ private:
     std::vector<Token> tokens_;
 };
 
+constexpr int kMostElements = 1024; ///< of an array: drivers compile large ones for minutes
+
 constexpr std::array kAllowedDirectives = {"define", "undef", "if",    "ifdef", "ifndef",
                                            "elif",   "else",  "endif", "error"};
 constexpr std::array kRefusedWords = {"layout",    "uniform", "buffer",     "shared",  "main",
@@ -114,6 +117,7 @@ public:
     IsolatedText isolate() {
         checkDirectives();
         checkWords();
+        checkArrays();
         findDeclarations();
         if (!functions_.contains("height"))
             fail(Failure::input, "{}: there is no function float height(vec3 p, vec2 st, float t)", file_);
@@ -143,15 +147,29 @@ private:
         for (std::size_t i = 0; i < order_.size(); ++i) {
             const Token& t = token(i);
             if (t.kind != TokenKind::word) continue;
+            const bool isLoop = t.text == "for" || t.text == "while" || t.text == "do";
+            if (t.isOfDirective && isLoop)
+                fail(Failure::input, "{}:{}: a macro of a height function cannot have loops", file_, t.line);
             if (isOneOf(kRefusedWords, t.text) || t.text.starts_with("gl_") || t.text.starts_with(kFunctionPrefix))
                 fail(Failure::input, "{}:{}: a height function cannot have {}: it is given p, st and t alone", file_,
                      t.line, t.text);
         }
     }
 
+    void checkArrays() const {
+        for (std::size_t i = 0; i + 1 < order_.size(); ++i) {
+            if (!is(i, "[") || token(i + 1).kind != TokenKind::number) continue;
+            const std::string size(token(i + 1).text);
+            if (std::strtod(size.c_str(), nullptr) > kMostElements)
+                fail(Failure::input, "{}:{}: an array of a height function cannot have {} elements, {} are the most",
+                     file_, token(i).line, size, kMostElements);
+        }
+    }
+
     /// Names that are declared outside of all braces, and macros.
     void findDeclarations() {
         int depth = 0;
+        bool isConstant = false; // the statement outside of all braces
         for (std::size_t i = 0; i < order_.size(); ++i) {
             if (token(i).isOfDirective) {
                 if (is(i, "define")) names_.insert(token(i + 1).text);
@@ -159,14 +177,22 @@ private:
             }
             if (is(i, "{") || is(i, "(")) ++depth;
             if (is(i, "}") || is(i, ")")) --depth;
+            if (depth == 0 && (is(i, ";") || is(i, "}"))) isConstant = false;
+            isConstant = isConstant || is(i, "const");
             if (depth > 0 || token(i).kind != TokenKind::word) continue;
             if (is(i, "precision")) // a statement of three words that declares nothing
                 i += 2;
             else if (isDeclared(i))
-                names_.insert(token(i).text);
+                names_.insert(token(i).text), checkConstant(i, isConstant);
             if (is(i, "struct")) names_.insert(token(i + 1).text);
             if (is(i + 1, "(") && names_.contains(token(i).text)) functions_.insert(token(i).text);
         }
+    }
+
+    void checkConstant(std::size_t i, bool isConstant) const {
+        if (!isConstant && !is(i + 1, "("))
+            fail(Failure::input, "{}:{}: {} has to be const: a height function keeps nothing from one call to the next",
+                 file_, token(i).line, token(i).text);
     }
 
     /// A word after its type, or after another one, before what ends a declarator.

@@ -93,9 +93,7 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
                               encoding.format, float(desc.height->heightBound())};
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
-    if (desc.albedo != nullptr)
-        pictures.albedo =
-            AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.height != nullptr ? desc.height->wrap : Wrap::repeat};
+    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
     if (desc.bump != nullptr) pictures.slopes = uploadSlopes(device, *desc.bump);
     if (desc.normalMap != nullptr) pictures.normalMap = uploadNormals(device, *desc.normalMap);
 
@@ -144,7 +142,8 @@ std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents
     texels.reserve(2 * tangents.ps.size());
     for (std::size_t i = 0; i < tangents.ps.size(); ++i) {
         // grad s = (p_t x n) / (n . (p_s x p_t)), grad t = (n x p_s) / (n . (p_s x p_t))
-        const vec3 n = glm::normalize(mesh.normals[i]);
+        const float length = glm::length(mesh.normals[i]);
+        const vec3 n = length > 0 ? mesh.normals[i] / length : vec3(0); // without a direction there are no gradients
         const vec3 &ps = tangents.ps[i], &pt = tangents.pt[i];
         const float area = glm::dot(n, glm::cross(ps, pt)), factor = area != 0 ? 1 / area : 0;
         texels.emplace_back(factor * glm::cross(pt, n), 0.0f);
@@ -184,7 +183,7 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     texCoords =
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
     indices = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
-    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), Wrap::repeat};
+    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
     uploadDetail(device, desc, *this);
     vertexCount = std::uint32_t(mesh.positions.size());
     triangleCount = std::uint32_t(mesh.indices.size() / 3);

@@ -90,7 +90,8 @@ struct SurfaceModelDesc {
     const FunctionHeights* function = nullptr; ///< instead of a height map
     const HeightMap* bump = nullptr;           ///< heights whose slopes normals show, as far as `height` does not
     const NormalMap* normalMap = nullptr;      ///< of object space only where the cage never moves
-    const Image* albedo = nullptr;             ///< 3 or more channels, sRGB-encoded values 0..1
+    Wrap albedoWrap = Wrap::repeat;
+    const Image* albedo = nullptr; ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
 /// A displaced subdivision surface. What its description points to may go away afterwards.
@@ -159,7 +160,8 @@ struct MeshModelDesc {
     const HeightMap* bump = nullptr;      ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
     const NormalMap* normalMap = nullptr; ///< ... unless the map is of object space
     const Tangents* tangents = nullptr;   ///< of the mesh
-    const Image* albedo = nullptr;        ///< as SurfaceModelDesc::albedo
+    Wrap albedoWrap = Wrap::repeat;
+    const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
 };
 
 /// A triangle mesh as it is: what displaced surfaces are compared with.

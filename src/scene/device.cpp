@@ -12,6 +12,7 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
                                 .function = object.functionHeights(),
                                 .bump = object.bumpMap(),
                                 .normalMap = object.normalMap ? &*object.normalMap : nullptr,
+                                .albedoWrap = object.wrap,
                                 .albedo = object.albedo ? &*object.albedo : nullptr});
     model.setTime(object.time, object.time);
     return model;
@@ -25,12 +26,13 @@ Model makeModel(Device& device, const LoadedObject& object) {
                        .bump = object.bumpMap(),
                        .normalMap = object.normalMap ? &*object.normalMap : nullptr,
                        .tangents = tangents ? &*tangents : nullptr,
+                       .albedoWrap = object.wrap,
                        .albedo = object.albedo ? &*object.albedo : nullptr};
     return MeshModel(device, desc);
 }
 
 void keepRestPose(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {
-    const bool stretches = space == HeightSpace::stretch && model.height.has_value();
+    const bool stretches = space == HeightSpace::stretch && (model.height || model.pictures.slopes);
     if (object.restPositions.empty() || !(stretches || object.function)) return;
     Poser poser(device, model,
                 {.surface = &object.surface, .heightSpace = space, .restPositions = object.restPositions});

@@ -51,7 +51,7 @@ public:
         : name_(function.name()), stated_(stated), mid_(mid), lowest_(faceCount, INFINITY),
           highest_(faceCount, -INFINITY) {}
 
-    void add(const MeasuredPoint& point, double time, const FunctionValue& found) {
+    void check(const MeasuredPoint& point, double time, const FunctionValue& found) const {
         const double value = found.value;
         const auto where = [&] {
             return fmt::format("at face {}, (u,v) = ({:.6g}, {:.6g}), t = {:.6g} s", point.face, point.uv.x, point.uv.y,
@@ -65,6 +65,11 @@ public:
         if (stated_ && std::abs(value) > *stated_ * (1 + 1e-5))
             fail(Failure::input, "{}: height is {:.6g} {}, more than its bound {:.6g}: raise kBound or --height-bound",
                  name_, value, where(), *stated_);
+    }
+
+    void add(const MeasuredPoint& point, const FunctionValue& found) {
+        const double value = found.value;
+        if (!std::isfinite(value)) return; // at a time that is not drawn
         largest_ = std::max(largest_, std::abs(value - mid_));
         lowest_[std::size_t(point.face)] = std::min(lowest_[std::size_t(point.face)], value);
         highest_[std::size_t(point.face)] = std::max(highest_[std::size_t(point.face)], value);
@@ -120,7 +125,7 @@ FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage) {
 }
 
 void measureFunction(Device& device, LoadedObject& object, const HeightDesc& desc, std::span<const double> times,
-                     const Warn& warn) {
+                     const Warn& warn, std::span<const double> steadyTimes) {
     if (!object.function) return;
     FunctionHeights& heights = *object.function;
     const HeightFunction& function = *heights.function;
@@ -135,10 +140,20 @@ void measureFunction(Device& device, LoadedObject& object, const HeightDesc& des
     std::vector<FunctionPoint> given = toFunctionPoints(surface, points, heights.unit);
 
     Census census(function, stated, heights.mid, std::size_t(surface.faceCount()));
-    for (const double time : times) {
+    const auto evaluateAt = [&](double time) {
         for (FunctionPoint& point : given) point.t = float(time);
-        const std::vector<FunctionValue> values = evaluator.evaluate(given);
-        for (std::size_t i = 0; i < points.size(); ++i) census.add(points[i], time, values[i]);
+        return evaluator.evaluate(given);
+    };
+    for (const double time : times) {
+        const std::vector<FunctionValue> values = evaluateAt(time);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            census.check(points[i], time, values[i]);
+            if (steadyTimes.empty()) census.add(points[i], values[i]);
+        }
+    }
+    for (const double time : steadyTimes) {
+        const std::vector<FunctionValue> values = evaluateAt(time);
+        for (std::size_t i = 0; i < points.size(); ++i) census.add(points[i], values[i]);
     }
     const double bound =
         std::abs(heights.scale) * (stated ? *stated + std::abs(heights.mid) : kMargin * census.largest());

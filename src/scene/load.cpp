@@ -33,7 +33,7 @@ void checkUse(const ObjectDesc& desc, bool isDense) {
              desc.height.function);
     if (isDense && !desc.height.function.empty())
         fail(Failure::usage,
-             "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
+             "{}: height functions are for subdivision surfaces, and this is drawn as plain polygons; name --scheme "
              "catmark, loop or bilinear",
              desc.cage);
     if (isDense && !desc.height.path.empty() && (detail == Detail::displacement || detail == Detail::both))
@@ -41,6 +41,16 @@ void checkUse(const ObjectDesc& desc, bool isDense) {
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
              "catmark, loop or bilinear, or --detail bump",
              desc.cage);
+}
+
+/// Normals are bent and turned along texture coordinates. (u,v) of faces, which stand for them where heights displace,
+/// jump from face to face.
+void checkBentNormals(const ObjectDesc& desc, const Cage& cage) {
+    const Detail detail = desc.height.detail;
+    const bool isBumped = !desc.height.path.empty() && (detail == Detail::bump || detail == Detail::both);
+    const std::string& map = isBumped ? desc.height.path : desc.material.normalMap.path;
+    if (!map.empty() && !cage.hasTexCoords())
+        fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
 }
 
 void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) {
@@ -51,13 +61,6 @@ void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) 
              desc.cage);
     object.time = desc.motion.time.value_or(0);
     if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
-}
-
-/// Polygons that are drawn themselves have no (u,v) that could stand for texture coordinates.
-void checkMeshMaps(const LoadedObject& object, const ObjectDesc& desc) {
-    if (!object.dense || !object.dense->texCoords.empty()) return;
-    const std::string& map = object.bumpMap() != nullptr ? desc.height.path : desc.material.normalMap.path;
-    if (!map.empty()) fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
 }
 
 void splitForTangents(LoadedObject& object) {
@@ -93,8 +96,10 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     const double start = secondsNow();
     object.cage = readCage(desc.cage, warn);
     checkTexCoords(object.cage, {desc.height.path, desc.material.albedo, desc.material.normalMap.path}, warn);
+    checkBentNormals(desc, object.cage);
     const Subdivision subdivision = chooseSubdivision(desc, object.cage);
     const bool isDense = subdivision == Subdivision::none;
+    object.wrap = desc.height.wrap.value_or(object.wrap);
     checkUse(desc, isDense);
 
     // Heights may change the unit of the cage, which what moves it has to be read in.
@@ -145,7 +150,6 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
             warnOutsideMap(object, scene.object.cage, normals, warn);
     }
     takeGltfTextures(scene.object, object, warn);
-    checkMeshMaps(scene.object, object);
     splitForTangents(scene.object);
     if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
     return scene;

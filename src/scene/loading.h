@@ -20,7 +20,8 @@ Image loadAlbedo(const std::string& path, const Warn& warn);
 NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn);
 
 /// Takes the base color and the normal map that the material of a glTF file names, where the command line names none.
-/// An object has one of each: materials that do not share theirs are warned of, and so is a picture that cannot be read.
+/// An object has one of each: materials that do not share theirs are warned of, and so is a picture that cannot be
+/// read.
 void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const Warn& warn);
 
 /// Warns where the cage's texture coordinates leave the unit square and nothing says how `map` continues there.

@@ -7,7 +7,8 @@ std::vector<dvec3> positionsOf(const std::vector<vec3>& positions) { return {pos
 
 /// The largest height of a function that moves the surface; 0 where none does.
 double boundOf(const LoadedObject& object) {
-    return object.function && !object.function->bendsNormals ? object.function->bound : 0;
+    const bool isDisplaced = object.detail == Detail::displacement || object.detail == Detail::both;
+    return object.function && isDisplaced ? object.function->bound : 0;
 }
 
 std::vector<vec3> positionsAt(const Animation& animation, double seconds) {

@@ -106,6 +106,7 @@ struct LoadedObject {
     std::optional<FunctionHeights> function; ///< instead of `height`; measureFunction() fills in its bounds
     double time = 0;                         ///< seconds, of the pose
     std::optional<Image> albedo;
+    Wrap wrap = Wrap::repeat;         ///< of the albedo
     std::optional<vec3> textureColor; ///< linear, multiplies an albedo that the cage's own file names
     std::optional<NormalMap> normalMap;
     bool needsTangents = false; ///< normals are bent or turned along texture coordinates, by heights or a normal map
@@ -187,8 +188,10 @@ void keepRestPose(Device& device, SurfaceModel& model, const LoadedObject& objec
 /// warning) and the ranges of heights on faces. Throws Failure::input for a value that is not finite or larger than the
 /// function states, Failure::device for a function whose loops do not end, each with the face and (u,v); Failure::usage
 /// for heights too large for the cage.
+/// `steadyTimes` are those that a measured bound and the ranges come from: times that do not depend on which frames of
+/// an animation are drawn, for each of its frames is the same whatever the others are. Empty: `times`.
 void measureFunction(Device& device, LoadedObject& object, const HeightDesc& desc, std::span<const double> times,
-                     const Warn& warn);
+                     const Warn& warn, std::span<const double> steadyTimes = {});
 
 // --- camera and light ---------------------------------------------------------------------------------------------
 

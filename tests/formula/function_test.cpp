@@ -135,13 +135,12 @@ TEST_F(HeightFunctions, mayDeclareNamesThatShadersHave) {
         "#define TWICE(x) (2.0 * (x))\n"
         "struct Face { float x, root; };\n"
         "const float a = 3.0, xyz = 4.0; // letters of swizzles\n"
-        "float displaced = 5.0;\n"
+        "const float displaced = 6.0;\n"
         "float project(float x) { return TWICE(x) + inputs; }\n"
         "Face fetchFace(float root) { Face limit; limit.x = a; limit.root = root; return limit; }\n"
         "float height(vec3 p, vec2 st, float t) {\n"
         "    Face face = fetchFace(p.xyz.x);\n"
         "    vec4 color = vec4(1.0, 2.0, 3.0, xyz);\n"
-        "    displaced += 1.0;\n"
         "    return project(face.x) + face.root + color.a + displaced;\n}\n";
     EXPECT_EQ(valueOf(text, {.p = vec3(7)}).value, 8.0f + 7.0f + 4.0f + 6.0f);
     const HeightFunction function({"test.glsl", text});
@@ -190,6 +189,20 @@ TEST_F(HeightFunctions, mayNotDeclareWhatIsNotTheirOwn) {
                                "bumps.glsl:3: a height function cannot have "))
             << line;
     EXPECT_TRUE(startsWith(errorOf(std::string("float x\0;", 9) + kHeight), "bumps.glsl: byte 7 is 0"));
+}
+
+// What would be kept from call to call, loops that nothing counts, and what drivers compile for minutes.
+TEST_F(HeightFunctions, mayNotHaveStateUncountedLoopsOrLargeArrays) {
+    const auto errorOfLine = [&](const std::string& line) { return errorOf(line + "\n" + kHeight); };
+    EXPECT_TRUE(startsWith(errorOfLine("float sum = 0.0;"), "bumps.glsl:1: sum has to be const"));
+    EXPECT_TRUE(startsWith(errorOfLine("const float a = 1.0; vec3 b[2];"), "bumps.glsl:1: b has to be const"));
+    EXPECT_EQ(errorOfLine("const float a = 1.0, b = 2.0; const float c[2] = float[](1.0, 2.0);"), "no error");
+    EXPECT_TRUE(
+        startsWith(errorOfLine("#define W while"), "bumps.glsl:1: a macro of a height function cannot have loops"));
+    EXPECT_TRUE(startsWith(errorOfLine("float f() { float a[20000]; return a[3]; }"), "bumps.glsl:1: an array"));
+    std::string sum = "float f(float x) { return x";
+    for (int i = 0; i < 2000; ++i) sum += "+sin(x*" + std::to_string(i) + ".0)";
+    EXPECT_NE(errorOf(sum + "; }\nfloat height(vec3 p, vec2 st, float t) { return f(p.x); }").find("words of SPIR-V"), std::string::npos);
 }
 
 TEST_F(HeightFunctions, ofAFileMayHaveAMarkAndMustBeShort) {

@@ -325,6 +325,31 @@ TEST_F(DetailNormals, ofBothAreThoseOfTheFullMapAtEveryRate) {
     }
 }
 
+// Slopes of vertices and the rest of the map's both raise the surface along the normal of the plane below it.
+TEST_F(DetailNormals, ofBothAreThoseOfTheFullMapWhereItIsSteep) {
+    const Wave wave{0.08, 6};
+    const HeightMap map = sineMap(1024, wave.amplitude, wave.count);
+    Cage plane;
+    plane.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    plane.texCoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    addFace(plane, {0, 1, 2, 3}, {0, 1, 2, 3});
+    const Surface surface = buildSurface(plane, {.scheme = Scheme::bilinear});
+    const SurfaceModel model(device(),
+                             {.surface = &surface, .cagePositions = plane.positions, .height = &map, .bump = &map});
+    for (const int rate : {64, 32, 16}) {
+        RenderOptions options = bilinear();
+        options.path = Path::dice;
+        options.rate = rate;
+        std::vector<double> angles;
+        for (const Seen& seen : look(model, options, {0, 0, 4}, 0.9)) {
+            const dvec2 slopes = 0.5 * wave.slopes(seen.st); // the plane is 2 wide
+            angles.push_back(degreesBetween(seen.normal, {-slopes.x, -slopes.y, 1}));
+        }
+        EXPECT_GT(angles.size(), 10000u);
+        EXPECT_LT(rms(angles), 1.5) << rate; // slopes of up to 56 degrees
+    }
+}
+
 // Shading does not change with the rate: that is what jumps where displacement alone loses heights.
 TEST_F(DetailNormals, ofBothHoldStillWhileRatesChange) {
     const HeightMap map = sineMap(512, 0.004, 18);
