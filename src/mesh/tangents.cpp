@@ -119,7 +119,7 @@ Tangents computeTangents(const DenseMesh& mesh) {
 DenseMesh splitMirrored(DenseMesh mesh) {
     RELIEF_CHECK(mesh.texCoords.size() == mesh.positions.size());
     const std::size_t triangleCount = mesh.indices.size() / 3;
-    // Which vertices a triangle that is not mirrored uses.
+    // Find the vertices that triangles use which are not mirrored.
     std::vector<bool> isMirrored(triangleCount), isUsed(mesh.positions.size(), false);
     for (std::size_t triangle = 0; triangle < triangleCount; ++triangle) {
         const double area = texAreaOf(cornersOf(mesh, triangle));
