@@ -207,7 +207,7 @@ struct SeamReport {
 /// Measures all seams. Without texture coordinates every face takes the whole map, and every edge between faces can be
 /// a seam.
 SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference, const HeightMap& map);
-/// Measures a surface whose heights a function gives, as above.
+/// Measures all seams of a surface whose heights a function gives.
 SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference, FunctionReference& function);
 
 } // namespace relief

@@ -1,8 +1,8 @@
 #include <atomic>
-#include <chrono>
 #include <map>
 #include <set>
 
+#include "base/clock.h"
 #include "formula/shader_cache.h"
 #include "formula/sources.h"
 
@@ -94,7 +94,7 @@ Digest HeightFunction::Parts::digestOf(const ShaderRequest& request) const {
 std::span<const std::uint32_t> HeightFunction::Parts::shader(const ShaderRequest& request) {
     const auto found = shaders.find(request);
     if (found != shaders.end()) return found->second;
-    const auto start = std::chrono::steady_clock::now();
+    const double start = secondsNow();
     const Digest digest = digestOf(request);
     std::optional<std::vector<std::uint32_t>> words = readCachedShader(digest);
     if (words) {
@@ -104,7 +104,7 @@ std::span<const std::uint32_t> HeightFunction::Parts::shader(const ShaderRequest
         writeCachedShader(digest, *words);
         ++costs.compiledCount;
     }
-    costs.milliseconds += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    costs.milliseconds += 1e3 * (secondsNow() - start);
     return shaders[request] = std::move(*words);
 }
 
