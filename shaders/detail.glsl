@@ -12,8 +12,7 @@ layout(constant_id = kIdNormalMap) const uint kNormalMap = kNormalMapNone;
 layout(set = 0, binding = kBindSlopes) uniform sampler2D slopeMap;
 layout(set = 0, binding = kBindNormalMap) uniform sampler2D normalMap;
 
-// Where (s,t) lies in a picture, whose rows go down.
-vec2 pictureCoordinates() { return vec2(vTexCoord.x, 1.0 - vTexCoord.y); }
+#include "lookup.glsl"
 
 // Added to the mip level that fits a pixel: displaced triangles show what each of four samples per pixel meets, and these are
 // half a pixel apart.
@@ -23,12 +22,12 @@ const float kSampleLevel = -1.0;
 // that is not displaced; on a displaced one what its triangles are too large for. Central differences over one texel commute
 // with interpolation between texels, so they are taken once per texel, and the sampler does the rest.
 vec2 missingSlopes() {
-    vec2 slopes = inputs.model.slopeUnit * texture(slopeMap, pictureCoordinates(), kSampleLevel).rg;
+    vec2 slopes = inputs.model.slopeUnit * lookUp(slopeMap, kSampleLevel).rg;
     return kHasHeight ? slopes - vec2(vGradientS.w, vGradientT.w) : slopes;
 }
 
 // The normal map at the fragment: a mean of unit normals, shorter than 1 where they differ.
-vec3 mappedNormal() { return texture(normalMap, pictureCoordinates()).xyz; }
+vec3 mappedNormal() { return lookUp(normalMap, 0.0).xyz; }
 
 vec3 unitOrElse(vec3 m, vec3 n) { return dot(m, m) > 0.0 ? normalize(m) : n; }
 

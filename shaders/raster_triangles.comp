@@ -93,7 +93,7 @@ void main() {
             ivec2 inBlock = ivec2(bit / sampleCount() % uint(kBlock.x), bit / (sampleCount() * uint(kBlock.x)));
             uint s = bit % sampleCount();
             ivec3 e = edgesAt(t, 256 * (pixel + inBlock) + placeOf(s)) - t.bias;
-            store(t.first + pixel + inBlock, s, vec3(e) * perArea, all, isFront);
+            store(t.first + pixel + inBlock, s, vec3(e) * perArea, all, triangle, isFront);
         }
         if (++block.x == blocks.x) block = ivec2(0, block.y + 1);
     }

@@ -107,7 +107,8 @@ const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame) {
     return computePipeline("light.comp", nullptr,
                            {.show = frame.technique.constant,
                             .hasInstances = frame.hasInstances(),
-                            .readsSampleBuffers = frame.raster == Raster::compute});
+                            .readsSampleBuffers = frame.raster == Raster::compute,
+                            .hasSampleColors = frame.writesIds});
 }
 
 } // namespace relief

@@ -47,6 +47,8 @@ struct Renderer::Parts {
         Buffer draws;
         DrawPlan plan;
         DicedMesh diced;
+        TexelBuffer faceTriangles; ///< kBindFaceTriangles, where the technique wants faces
+        std::uint32_t firstId = 0; ///< triangles of the instances before it
         BindingSet set;
 
         [[nodiscard]] const ModelPictures& pictures() const {
@@ -69,6 +71,8 @@ struct Renderer::Parts {
         Buffer materialTable; ///< where there are several instances
         BindingSet set;
         FrameStats stats;
+
+        bool writesIds = false; ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
 
         [[nodiscard]] bool hasInstances() const { return drawn.size() > 1; }
         [[nodiscard]] bool castsShadows() const { return options.lighting.castsShadows && technique.isLit; }
@@ -113,7 +117,10 @@ struct Renderer::Parts {
     // The compute rasterizer: raster.cpp.
     [[nodiscard]] std::string obstacleToRaster(const Frame& frame) const;
     [[nodiscard]] Raster rasterOf(const Frame& frame) const;
+    [[nodiscard]] bool needsIds(const Frame& frame) const;
     void useBuffers(Frame& frame);
+    void makeMeshBuffers(const Frame& frame);
+    void resolve(VkCommandBuffer commands, const Frame& frame);
     const Pipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
     /// Clears the target of a pass, and writes all instances to it.
     void rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target, uvec2 targetSize);

@@ -41,6 +41,9 @@ constexpr BindingRow kBindings[] = {
     {kBindScreen, BindingKind::words},
     {kBindSamples, BindingKind::words},
     {kBindShadowCodes, BindingKind::words},
+    {kBindSampleColors, BindingKind::words},
+    {kBindSampleInstances, BindingKind::words},
+    {kBindFaceTriangles, BindingKind::words},
 };
 static_assert(std::size(kBindings) == kBindCount);
 
@@ -94,6 +97,8 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHeightFunction] = heightFunction;
     values[kIdReadsRest] = readsRest;
     values[kIdReadsSampleBuffers] = readsSampleBuffers;
+    values[kIdWritesIds] = writesIds;
+    values[kIdHasSampleColors] = hasSampleColors;
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
