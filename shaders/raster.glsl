@@ -43,14 +43,14 @@ const int kBehind = 1; // nearer than the near plane
 const int kAside = 2;  // farther from the middle of the picture than numbers of a pixel are precise
 const float kMostPixels = 1048576.0;
 
+bool isBehind(vec4 clip) { return !(clip.w > 0.0 && clip.z <= clip.w); }
+
+// A vertex that is not behind.
 ScreenVertex toScreen(vec4 clip) {
     precise float perW = 1.0 / clip.w;
     precise vec2 halfSize = 0.5 * vec2(push.size);
     precise vec2 pixel = clip.xy * perW * halfSize + halfSize;
-    ScreenVertex v = ScreenVertex(ivec2(kUnplaced, kBehind), 0.0, 0u);
-    if (!(clip.w > 0.0 && clip.z <= clip.w)) return v;
-    v.depth = clip.z * perW;
-    v.p.y = kAside;
+    ScreenVertex v = ScreenVertex(ivec2(kUnplaced, kAside), clip.z * perW, 0u);
     if (all(lessThan(abs(pixel), vec2(kMostPixels)))) v.p = ivec2(roundEven(256.0 * pixel));
     return v;
 }
