@@ -35,7 +35,7 @@ RELIEF_CONSTANT uint kBindColors = 20u;
 RELIEF_CONSTANT uint kBindInstances = 21u;
 RELIEF_CONSTANT uint kBindSlopes = 22u;           // sampled image: (h_s, h_t) / ModelTables::slopeUnit
 RELIEF_CONSTANT uint kBindNormalMap = 23u;        // sampled image: unit normals, y along t
-RELIEF_CONSTANT uint kBindMeshTexGradients = 24u; // table: two per vertex of a mesh, see varyings.glsl
+RELIEF_CONSTANT uint kBindMeshTexGradients = 24u; // table: kGradientTexels or more per vertex of a mesh
 RELIEF_CONSTANT uint kBindCount = 25u;
 
 #ifdef __cplusplus

@@ -89,8 +89,8 @@ std::uint64_t MeshPoser::upload(const DenseMesh& posed, const Tangents* tangents
     Parts& p = *parts_;
     std::vector<vec4> texels = verticesOf(posed.positions, posed.normals);
     const std::uint64_t vertexBytes = texels.size() * sizeof(vec4);
-    if (tangents != nullptr) {
-        const std::vector<vec4> more = toTexGradients(posed, *tangents);
+    if (tangents != nullptr || p.model.function) {
+        const std::vector<vec4> more = toTexGradients(posed, tangents, p.model.restPositions);
         texels.insert(texels.end(), more.begin(), more.end());
     }
     const std::uint64_t bytes = texels.size() * sizeof(vec4);
