@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "displacement/neighbours.h"
 #include "maps/maps.h"
-#include "maps/neighbours.h"
 #include "maps/transforms.h"
 
 namespace relief {

@@ -57,6 +57,7 @@ struct GpuSlopeMap {
     Texture texture; ///< as SlopeMap::texels
     float unit = 1;  ///< SlopeMap::unit
     Wrap wrap = Wrap::repeat;
+    std::uint64_t byteCount = 0; ///< of its texels, mip levels included
 };
 
 /// What fragments read of a model, as far as there is any of it.

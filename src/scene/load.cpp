@@ -46,6 +46,14 @@ void checkBentNormals(const ObjectDesc& desc, const Cage& cage) {
         fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
 }
 
+/// Bump and both are what heights do: without any, the picture is that of none.
+void warnOfNoHeights(const ObjectDesc& desc, const Warn& warn) {
+    const Detail detail = desc.height.detail;
+    if (desc.height.path.empty() && desc.height.function.empty() && (detail == Detail::bump || detail == Detail::both))
+        warn(fmt::format("--detail {} shows nothing without heights; name a --height map or a --height-function",
+                         wordOf(kDetails, detail)));
+}
+
 void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) {
     if (desc.motion.time && !object.animation && !object.function)
         fail(Failure::usage,
@@ -156,6 +164,8 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
             warnOutsideMap(object, scene.object.cage, normals, warn);
     }
     takeGltfTextures(scene.object, object, warn);
+    warnOfFlatTexCoords(scene.object, object.cage, warn);
+    warnOfNoHeights(object, warn);
     splitForTangents(scene.object);
     if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
     return scene;
