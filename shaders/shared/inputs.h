@@ -123,11 +123,6 @@ using pass::PassInputs;
 // What footprints.comp writes per edge: its length in texels, the lowest and the highest (s,t) on it.
 RELIEF_CONSTANT uint kFootprintFloats = 5u;
 
-// Texels of kBindMeshTexGradients per vertex: the gradients of s and of t; where fragments evaluate a height function,
-// then also the columns of vRestGradient with vRest in their w (shaders/varyings.glsl).
-RELIEF_CONSTANT uint kGradientTexels = 2u;
-RELIEF_CONSTANT uint kRestGradientTexels = 5u;
-
 // What layers.comp writes per pixel, floats in this order: distance along the view (1e10 where nothing is seen), unit
 // normal, face of the cage (-1: none), texture coordinates, height, motion in pixels (x right, y down) since the frame
 // before.

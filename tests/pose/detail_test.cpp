@@ -73,6 +73,43 @@ TEST_F(MovedFunctionNormals, ofPlainTrianglesAreThoseOfTheStretchedFunction) {
     EXPECT_LT(rms(anglesToWaves(look(posed, bilinear(), {0, 0, 4}, 0.9), 0.5)), 0.2);
 }
 
+// The device moves gradients with the vertices: one joint that makes everything twice as wide, and turns it.
+TEST_F(MovedFunctionNormals, ofSkinnedTrianglesAreThoseOfTheStretchedFunction) {
+    const FunctionHeights heights = wavesOf(ByFunction::bends);
+    const HeightMap map = sineMap(512, 0.03, 3);
+    const DenseMesh rest = denseMesh(square());
+    const Tangents tangents = computeTangents(rest);
+    Rig rig{.rest = rest.positions, .jointCount = 1, .influenceCount = 1};
+    rig.joints.assign(rest.positions.size(), 0);
+    rig.weights.assign(rest.positions.size(), 1);
+    const mat4 turn = glm::rotate(mat4(1), 0.4f, vec3(0, 1, 0)), joint = turn * glm::scale(mat4(1), vec3(2, 1, 1));
+    DenseMesh moved = rest;
+    for (vec3& p : moved.positions) p = vec3(joint * vec4(p, 1));
+    for (vec3& n : moved.normals) n = vec3(turn * vec4(n, 0));
+    const Tangents movedTangents = computeTangents(moved);
+    const auto compare = [&](const FunctionHeights* function, const HeightMap* bump) {
+        const auto make = [&] {
+            return MeshModel(device(), {.mesh = &rest, .bump = bump, .function = function, .tangents = &tangents});
+        };
+        MeshModel skinned = make(), sent = make();
+        MeshPoser skinner(device(), skinned, rest, rig), sender(device(), sent, rest, rig);
+        skinner.pose({.positions = {}, .joints = {joint}, .morphWeights = {}});
+        sender.upload(moved, &movedTangents);
+        const std::vector<Seen> one = look(skinned, bilinear(), {0, 0, 4}, 0.9);
+        const std::vector<Seen> other = look(sent, bilinear(), {0, 0, 4}, 0.9);
+        ASSERT_EQ(one.size(), other.size());
+        std::vector<double> angles, bends;
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            angles.push_back(degreesBetween(one[i].normal, other[i].normal));
+            bends.push_back(degreesBetween(one[i].normal, dvec3(turn * vec4(0, 0, 1, 0))));
+        }
+        EXPECT_LT(most(angles), 0.1);
+        EXPECT_GT(rms(bends), 5);
+    };
+    compare(&heights, nullptr);
+    compare(nullptr, &map);
+}
+
 // A cage that is turned looks as one that stands where it was and is turned by its place in the world.
 TEST_F(MovedFunctionNormals, ofARigidMoveAreTurnedWithIt) {
     Islands& cube = cubeWithIslands();
