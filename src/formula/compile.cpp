@@ -108,19 +108,13 @@ std::string replaced(std::string text, std::string_view part, std::string_view b
 /// The compiler's words for signs, and its phrases that say nothing to an author.
 std::string inPlainWords(std::string message) {
     constexpr std::pair<std::string_view, std::string_view> kWords[] = {
-        {"LEFT_PAREN", "'('"},
-        {"RIGHT_PAREN", "')'"},
-        {"LEFT_BRACKET", "'['"},
-        {"RIGHT_BRACKET", "']'"},
-        {"LEFT_BRACE", "'{'"},
-        {"RIGHT_BRACE", "'}'"},
-        {"SEMICOLON", "';'"},
-        {"COMMA", "','"},
-        {"COLON", "':'"},
-        {"EQUAL", "'='"},
-        {"$end", "the end"},
-        {"'' : ", ""},
-        {" memory exhausted", "brackets are nested too deep"}};
+        {"LEFT_PAREN", "'('"},   {"RIGHT_PAREN", "')'"},
+        {"LEFT_BRACKET", "'['"}, {"RIGHT_BRACKET", "']'"},
+        {"LEFT_BRACE", "'{'"},   {"RIGHT_BRACE", "'}'"},
+        {"SEMICOLON", "';'"},    {"COMMA", "','"},
+        {"COLON", "':'"},        {"EQUAL", "'='"},
+        {"$end", "the end"},     {"'' : ", ""},
+        {":  ", ": "},           {" memory exhausted", "brackets are nested too deep"}};
     for (const auto& [word, plain] : kWords) message = replaced(std::move(message), word, plain);
     constexpr std::string_view kExtension = "required extension not requested";
     if (const std::size_t at = message.find(kExtension); at != std::string::npos)
@@ -135,6 +129,15 @@ std::ptrdiff_t lineOf(std::string_view word, std::string_view text) {
     return 1;
 }
 
+/// The line of the last #if or #elif before another line.
+int lineOfCondition(std::string_view text, int before) {
+    int line = 1;
+    for (const Token& token : readTokens(text))
+        if (token.isOfDirective && (token.text == "if" || token.text == "elif") && token.line < before)
+            line = token.line;
+    return line;
+}
+
 /// "Recursion detected:", and on the line below "f(f1; calling g(f1;".
 [[noreturn]] void failOfRecursion(const FunctionText& function, std::string_view log) {
     constexpr std::string_view kCalling = " calling ";
@@ -143,8 +146,8 @@ std::ptrdiff_t lineOf(std::string_view word, std::string_view text) {
     const std::string_view called = log.substr(std::min(calling + kCalling.size(), log.size()));
     const std::string from = without(std::string(log.substr(start, log.find('(', start) - start)), kFunctionPrefix);
     const std::string to = without(std::string(called.substr(0, called.find('('))), kFunctionPrefix);
-    fail(Failure::input, "{}:{}: {} calls {}, and so comes back to itself: functions of GLSL cannot", function.name,
-         lineOf(from, function.text), from, from == to ? "itself" : to);
+    fail(Failure::input, "{}:{}: {} calls {}: there is no recursion in GLSL", function.name,
+         lineOf(from, function.text), from, from == to ? "itself" : to + ", which comes back to it");
 }
 
 /// One line of the compiler's log: the first error, at the function's own line where it lies there.
@@ -154,7 +157,14 @@ std::ptrdiff_t lineOf(std::string_view word, std::string_view text) {
     const std::size_t start = std::min(log.find(kError), log.size());
     const std::string line = without(std::string(log.substr(start, log.find('\n', start) - start)), kFunctionPrefix);
     const std::string own = fmt::format("{}{}:", kError, function.name);
-    if (line.starts_with(own)) fail(Failure::input, "{}:{}", function.name, inPlainWords(line.substr(own.size())));
+    if (line.starts_with(own)) {
+        // A condition is evaluated once its line has been read: the compiler names the next one.
+        const std::string_view message = std::string_view(line).substr(own.size());
+        if (message.find("'preprocessor evaluation'") != std::string_view::npos)
+            fail(Failure::input, "{}:{}: the condition of this #if is no number", function.name,
+                 lineOfCondition(function.text, std::atoi(message.data())));
+        fail(Failure::input, "{}:{}", function.name, inPlainWords(std::string(message)));
+    }
     if (!request.file.empty()) fail(Failure::internal, "{} with {}: {}", request.file, function.name, line);
     for (const char* mismatch :
          {"no matching overloaded function", "cannot convert return value", "type does not match"})

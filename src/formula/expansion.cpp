@@ -34,7 +34,7 @@ public:
 
     void check() {
         for (const Tokens condition : conditions_) checkSize(condition);
-        checkSize(text_);
+        checkSize(outside_);
         for (const auto& [name, bodies] : definitions_)
             for (const Definition& body : bodies) checkSize(body.tokens);
     }
@@ -76,16 +76,20 @@ private:
     /// NAME ( ... ) { ... } outside of all braces.
     void findFunctions() {
         const Tokens all = text_;
+        std::size_t first = 0; // behind the function before
         for (std::size_t i = 0; i < all.size(); ++i) {
             if (all[i].text != "{") continue;
             const std::size_t end = endOfBrackets(all, i);
             std::size_t name = i;
-            while (name > 0 && all[name - 1].text != "(" && all[name - 1].text != ";" && all[name - 1].text != "}")
-                --name;
-            const bool isFunction = i > 0 && all[i - 1].text == ")" && name > 1 && all[name - 1].text == "(";
-            if (isFunction) definitions_[all[name - 2].text].push_back({all.subspan(i, end - i), {}, false});
+            while (name > first && all[name].text != "(" && all[name].text != ";") --name;
+            const bool isFunction = all[i == 0 ? 0 : i - 1].text == ")" && name > first && all[name].text == "(";
+            if (isFunction) definitions_[all[name - 1].text].push_back({all.subspan(i, end - i), {}, false});
+            outside_.insert(outside_.end(), all.begin() + std::ptrdiff_t(first),
+                            all.begin() + std::ptrdiff_t(isFunction ? name - 1 : end));
+            first = end;
             i = end - 1;
         }
+        outside_.insert(outside_.end(), all.begin() + std::ptrdiff_t(first), all.end());
     }
 
     /// The token behind the bracket that closes that at `first`.
@@ -145,8 +149,9 @@ private:
     }
 
     std::string_view file_;
-    double most_;             ///< tokens, macros and calls replaced
-    std::vector<Token> text_; ///< outside of directives
+    double most_;                ///< tokens, macros and calls replaced
+    std::vector<Token> outside_; ///< of functions and directives
+    std::vector<Token> text_;    ///< outside of directives
     std::vector<Tokens> conditions_;
     std::map<std::string_view, std::vector<Definition>> definitions_;
     std::map<std::string_view, Expansion> expansions_;

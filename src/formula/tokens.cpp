@@ -132,8 +132,10 @@ private:
             if (token.isOfDirective) continue;
             if (token.isOpening()) open.push_back(&token);
             if (!token.isClosing()) continue;
-            if (open.empty()) fail(Failure::input, "{}:{}: '{}' closes nothing", file_, token.line, token.text);
-            if (kOpening.find(open.back()->text) != kClosing.find(token.text)) failOpen(*open.back());
+            const auto isOther = [&](const Token* t) { return kOpening.find(t->text) == kClosing.find(token.text); };
+            if (std::ranges::none_of(open, isOther))
+                fail(Failure::input, "{}:{}: '{}' closes nothing", file_, token.line, token.text);
+            if (!isOther(open.back())) failOpen(*open.back());
             open.pop_back();
         }
         if (!open.empty()) failOpen(*open.back());
