@@ -114,7 +114,7 @@ std::string inPlainWords(std::string message) {
         {"SEMICOLON", "';'"},    {"COMMA", "','"},
         {"COLON", "':'"},        {"EQUAL", "'='"},
         {"$end", "the end"},     {"'' : ", ""},
-        {":  ", ": "},           {" memory exhausted", "brackets are nested too deep"}};
+        {":  ", ": "},           {"memory exhausted", "brackets are nested too deep"}};
     for (const auto& [word, plain] : kWords) message = replaced(std::move(message), word, plain);
     constexpr std::string_view kExtension = "required extension not requested";
     if (const std::size_t at = message.find(kExtension); at != std::string::npos)

@@ -36,7 +36,8 @@ public:
         for (const Tokens condition : conditions_) checkSize(condition);
         checkSize(outside_);
         for (const auto& [name, bodies] : definitions_)
-            for (const Definition& body : bodies) checkSize(body.tokens);
+            for (const Definition& body : bodies)
+                if (!body.isMacro) checkSize(body.tokens);
     }
 
 private:

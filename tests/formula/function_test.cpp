@@ -5,15 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "formula/formula.h"
+#include "on_device.h"
 #include "support.h"
 
 namespace relief::test {
 namespace {
-
-Device& device() {
-    static Device instance;
-    return instance;
-}
 
 /// Every test has a cache of its own.
 class HeightFunctions : public ::testing::Test {
