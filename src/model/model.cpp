@@ -150,7 +150,8 @@ void uploadDetail(Device& device, const MeshModelDesc& desc, MeshModel& model) {
     if (needsTangents || desc.function != nullptr)
         texels = toTexGradients(*desc.mesh, desc.tangents, model.restPositions);
     model.texGradients =
-        uploadTexels(device, {.name = "mesh texture gradients"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
+        uploadTexels(device, {.name = "mesh texture gradients", .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+                     VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
 }
 
 } // namespace

@@ -64,7 +64,7 @@ void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) 
     if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
 }
 
-/// The polygons of a mesh that is bent by a function, at rest.
+/// The polygons of a mesh at rest.
 DenseMesh makeRestMesh(const LoadedObject& object) {
     if (object.restPositions.empty()) return *object.dense;
     Cage rest = object.cage;
@@ -77,7 +77,8 @@ void splitForTangents(LoadedObject& object) {
     const bool isBent = object.dense && object.functionHeights() != nullptr;
     object.needsTangents = isTurned || object.bumpMap() != nullptr || (isBent && !object.dense->texCoords.empty());
     std::optional<DenseMesh> rest;
-    if (isBent) rest = makeRestMesh(object);
+    if (object.dense && object.function)
+        rest = makeRestMesh(object); // where it is measured, whether it is shown or not
     if (object.dense && object.needsTangents) {
         object.dense = splitMirrored(std::move(*object.dense));
         if (rest) rest = splitMirrored(std::move(*rest));

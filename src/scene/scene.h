@@ -98,7 +98,7 @@ struct LoadedObject {
     std::unique_ptr<Animation> animation; ///< null for a cage that nothing moves
     std::vector<vec3> restPositions;      ///< of the cage, where load() has posed it; else empty
     std::optional<DenseMesh> dense;       ///< instead of a surface, where the polygons are drawn themselves
-    std::vector<vec3> denseRest;          ///< positions of `dense` at rest, where a height function bends its normals
+    std::vector<vec3> denseRest;          ///< positions of `dense` at rest, where there is a height function
     SurfaceOptions options;
     Surface surface;
     std::optional<HeightMap> height; ///< as the device reads it
