@@ -44,19 +44,24 @@ vec3 turnedNormal(vec3 n, vec3 ps, float side) {
 #ifdef RELIEF_HEIGHT_FUNCTION
 #include "function.glsl"
 
-// Gradient of the function's height along the surface, by central differences in two directions: over half a pixel, for samples
-// are that far apart, and at least over the step of vertices.
+layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
+
+// Gradient of the function's height along the surface, by central differences in directions that are perpendicular to each other:
+// over half a pixel, for samples are that far apart, and at least over the step of vertices. Two directions span the surface;
+// vertices that stretch have slopes of their own, and gradients are not perpendicular to their normals.
 vec3 functionGradient(vec3 n, vec3 gradientS, vec3 gradientT) {
     float pixel = max(length(dFdx(vRest)), length(dFdy(vRest)));
     float d = max(0.25 * pixel, inputs.model.heightStep);
     vec3 first = normalize(abs(n.x) < 0.7 ? cross(n, vec3(1, 0, 0)) : cross(n, vec3(0, 1, 0)));
     vec3 gradient = vec3(0);
-    for (uint i = 0u; i < 4u; ++i) {
-        vec3 direction = i < 2u ? first : cross(n, first);
-        float along = (i & 1u) == 0u ? d : -d;
-        vec3 local = kIsPlaced ? direction * inputs.view.normalToWorld : direction; // the transpose turns back
+    for (uint i = 0u; i < (kStretches && kHasHeight ? 6u : 4u); ++i) {
+        vec3 direction = i < 2u ? first : i < 4u ? cross(n, first) : n;
+        vec3 atRest = vRestGradient * direction;
+        float size = length(atRest);
+        if (!(size > 0.0)) continue;
+        float along = ((i & 1u) == 0u ? d : -d) / size;
         vec2 st = vTexCoord.xy + along * vec2(dot(gradientS, direction), dot(gradientT, direction));
-        gradient += heightOfFunction(vRest + along * local, st) / (2.0 * along) * direction;
+        gradient += heightOfFunction(vRest + along * atRest, kHasTexCoords ? st : vec2(0)) / (2.0 * along) * direction;
     }
     return gradient;
 }

@@ -83,8 +83,8 @@ void interpolate(uint triangle, vec2 ndc) {
             stepY += (below[i] - w[i]) * st;
         }
         if (kHasTexGradients) {
-            vGradientS += w[i] * worldGradient(meshTexGradients(2u * vertex));
-            vGradientT += w[i] * worldGradient(meshTexGradients(2u * vertex + 1u));
+            vGradientS += w[i] * worldGradient(meshTexGradients(kGradientTexels * vertex));
+            vGradientT += w[i] * worldGradient(meshTexGradients(kGradientTexels * vertex + 1u));
         }
     }
     vFace = vertices[0] / 64u;

@@ -17,5 +17,9 @@ RELIEF_LOCATION(5) RELIEF_VARYING vec4 vGradientS;
 RELIEF_LOCATION(6) RELIEF_VARYING vec4 vGradientT;
 
 #ifdef RELIEF_HEIGHT_FUNCTION
-RELIEF_LOCATION(8) RELIEF_VARYING vec3 vRest; // the limit surface's point, for a function that bends normals
+// What a function that bends normals is given (kHasSlopes): the limit surface's point at rest, and how it moves with the point
+// of the drawn surface, per unit of length in the world's directions: p0_u (x) grad u + p0_v (x) grad v. Where heights
+// stretch with the surface, it is multiplied with the stretch, as gradients are.
+RELIEF_LOCATION(8) RELIEF_VARYING vec3 vRest;
+RELIEF_LOCATION(9) RELIEF_VARYING mat3 vRestGradient;
 #endif

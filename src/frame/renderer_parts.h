@@ -54,7 +54,12 @@ struct Renderer::Parts {
         [[nodiscard]] const ModelPictures& pictures() const {
             return surface != nullptr ? surface->pictures : mesh->pictures;
         }
-        [[nodiscard]] bool isBentByFunction() const { return surface != nullptr && surface->functionBendsNormals; }
+        [[nodiscard]] const HeightFunction* function() const {
+            return surface != nullptr ? surface->function.get() : mesh->function.get();
+        }
+        [[nodiscard]] bool isBentByFunction() const {
+            return surface != nullptr ? surface->functionBendsNormals : mesh->function != nullptr;
+        }
         [[nodiscard]] bool isTriangles() const { return surface != nullptr && surface->isTriangles(); }
     };
 
