@@ -183,7 +183,8 @@ TEST_F(FunctionOption, bendsNormalsOfPlainTriangles) {
     EXPECT_LT(meanDifference(readImage(target("m.0000.exr")), cage), 0.1 * meanDifference(none, cage));
     const Image posed = draw(mesh, "--detail bump --deform twist(axis=y,angle=20)");
     EXPECT_LT(meanDifference(readImage(target("m.0001.exr")), posed), 1e-4);
-    expectRefused(render("golf", "", mesh), Failure::usage, {"--detail bump"});
+    expectRefused(relief({"render", mesh, "--height-function", "golf", "-o", target()}), Failure::usage,
+                  {"--detail bump"});
 }
 
 TEST_F(FunctionOption, isReportedByInfoAndRefusedByBench) {
