@@ -9,6 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = kIdShow) const uint kShow = kShowShaded;
 layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
+layout(constant_id = kIdReadsSampleBuffers) const bool kReadsSampleBuffers = false; // else images
 
 layout(set = 0, binding = kBindEnvironment) uniform sampler2D environmentMap; // equirectangular
 layout(set = 0, binding = kBindShadow) uniform sampler2D shadowMap;           // reversed depth from the key light
@@ -16,6 +17,8 @@ layout(set = 0, binding = kBindDepths) uniform sampler2DMS depthSamples;
 layout(set = 0, binding = kBindNormals) uniform sampler2DMS normalSamples;
 layout(set = 0, binding = kBindColors) uniform sampler2DMS colorSamples;
 layout(set = 0, binding = kBindInstances) uniform usampler2DMS instanceSamples; // kHasInstances
+RELIEF_TABLE(kBindSamples, uvec4, samplePair)
+RELIEF_TABLE(kBindShadowCodes, uint, shadowCode)
 
 const float kPi = 3.14159265;
 
@@ -47,6 +50,13 @@ float keySpecular(float nl, float nv, float nh, float vh, float roughness, float
     return distribution * visibility * fresnel * nl;
 }
 
+// The depth of what the key light meets first, at a place in the shadow map of 0..1 each way.
+float shadowDepth(vec2 at) {
+    if (!kReadsSampleBuffers) return textureLod(shadowMap, at, 0.0).r;
+    ivec2 texel = clamp(ivec2(floor(at * float(inputs.light.shadowSide))), 0, int(inputs.light.shadowSide) - 1);
+    return float(shadowCode(uint(texel.y) * inputs.light.shadowSide + uint(texel.x))) / kShadowCodes;
+}
+
 // Share of the key light that arrives: eight samples of the shadow map on a spiral, turned from pixel to pixel by interleaved
 // gradient noise (Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", 2014).
 float keyVisibility(vec3 position, vec3 n) {
@@ -60,7 +70,7 @@ float keyVisibility(vec3 position, vec3 n) {
     float lit = 0.0;
     for (int i = 0; i < 8; ++i) {
         vec2 at = clip.xy * 0.5 + 0.5 + spoke * sqrt((float(i) + 0.5) * 0.125);
-        lit += textureLod(shadowMap, at, 0.0).r <= clip.z ? 0.125 : 0.0;
+        lit += shadowDepth(at) <= clip.z ? 0.125 : 0.0;
         spoke = goldenTurn * spoke;
     }
     return lit;
@@ -97,8 +107,22 @@ vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color, Material material) {
     return color * (0.35 + 0.65 * max(dot(n, v), 0.0));
 }
 
-vec3 colorAt(ivec2 at, int i) {
-    return colorOfStored(texelFetch(colorSamples, at, i).rgb, kShow == kShowShaded);
+// One of a pixel's samples.
+struct Seen {
+    float depth; // 0 where nothing is seen
+    vec3 normal;
+    vec3 color;
+};
+
+Seen seenAt(ivec2 at, int i) {
+    if (kReadsSampleBuffers) {
+        uvec4 two = samplePair(2u * uint(at.y * inputs.view.pictureSize.x + at.x) + uint(i >> 1));
+        uvec2 one = (i & 1) == 0 ? two.xy : two.zw;
+        vec3 color = storedColor(kShow == kShowShaded ? inputs.material.albedo : vec3(0), kShow == kShowShaded);
+        return Seen(uintBitsToFloat(one.y), unpackNormal(one.x), colorOfStored(color, kShow == kShowShaded));
+    }
+    return Seen(texelFetch(depthSamples, at, i).r, fromOctahedral(texelFetch(normalSamples, at, i).xy),
+                colorOfStored(texelFetch(colorSamples, at, i).rgb, kShow == kShowShaded));
 }
 
 // The material at a sample: that of the inputs where the picture has one instance alone.
@@ -114,11 +138,11 @@ void main() {
     float lowest = 1.0, highest = 0.0;
     vec3 normal = vec3(0), color = vec3(0);
     for (int i = 0; i < 4; ++i) {
-        float depth = texelFetch(depthSamples, at, i).r;
-        lowest = min(lowest, depth);
-        highest = max(highest, depth);
-        normal += fromOctahedral(texelFetch(normalSamples, at, i).xy);
-        color += 0.25 * colorAt(at, i);
+        Seen one = seenAt(at, i);
+        lowest = min(lowest, one.depth);
+        highest = max(highest, one.depth);
+        normal += one.normal;
+        color += 0.25 * one.color;
     }
     vec4 sum = vec4(0);
     if (highest > 0.0) {
@@ -135,9 +159,10 @@ void main() {
         vec3 n = normal;
         for (int i = 0; i < count; ++i) {
             if (!isOneSurface) {
-                depth = texelFetch(depthSamples, at, i).r;
-                n = fromOctahedral(texelFetch(normalSamples, at, i).xy);
-                color = colorAt(at, i);
+                Seen one = seenAt(at, i);
+                depth = one.depth;
+                n = one.normal;
+                color = one.color;
             }
             if (depth > 0.0) sum += vec4(seen(ndc, depth, normalize(n), color, materialAt(at, i)), 1.0);
         }

@@ -11,3 +11,11 @@ vec3 fromOctahedral(vec2 p) {
     n.xy -= fold * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
     return normalize(n);
 }
+
+// 16 bits per coordinate.
+uint packNormal(vec3 n) {
+    ivec2 code = ivec2(floor(32767.0 * octahedral(n) + 0.5));
+    return uint(code.x & 0xffff) | uint(code.y) << 16;
+}
+
+vec3 unpackNormal(uint code) { return fromOctahedral(vec2(int(code << 16) >> 16, int(code) >> 16) / 32767.0); }

@@ -34,7 +34,8 @@ RELIEF_CONSTANT uint kIdHasSlopes = 21u;       // normals are bent by the slopes
 RELIEF_CONSTANT uint kIdNormalMap = 22u;       // kNormalMap...
 RELIEF_CONSTANT uint kIdHeightFunction = 23u;  // number of a height function, for keys of pipelines
 RELIEF_CONSTANT uint kIdReadsRest = 24u; // heights depend on the rest pose, and it is another than that of the frame
-RELIEF_CONSTANT uint kIdCount = 25u;
+RELIEF_CONSTANT uint kIdReadsSampleBuffers = 25u; // light: samples are those of raster_*.comp
+RELIEF_CONSTANT uint kIdCount = 26u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -60,6 +61,15 @@ RELIEF_CONSTANT uint kNormalFull = 2u;
 RELIEF_CONSTANT uint kNormalMapNone = 0u;
 RELIEF_CONSTANT uint kNormalMapTangent = 1u;
 RELIEF_CONSTANT uint kNormalMapObject = 2u;
+
+// raster_*.comp: the list of triangles for raster_large.comp. Its first three words are the workgroups of that
+// dispatch.
+RELIEF_CONSTANT uint kLargeCount = 3u;          // word: triangles in the list
+RELIEF_CONSTANT uint kLargeFirst = 4u;          // word: the first one
+RELIEF_CONSTANT uint kMostLargeGroups = 65535u; // that a dispatch may have on every device
+RELIEF_CONSTANT int kLargeTile = 128;           // pixels each way that one of its workgroups fills
+
+RELIEF_CONSTANT float kShadowCodes = 65535.0f; // depths of a shadow map are stored as whole numbers up to this
 
 #ifdef __cplusplus
 } // namespace relief

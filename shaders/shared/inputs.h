@@ -66,6 +66,7 @@ struct Light {
     float hasShadows;     // 1 or 0
     float shadowBias;     // along the normal, world units
     float shadowSoftness; // radius of the filter, as a fraction of the shadow map
+    uint shadowSide;      // texels
 };
 
 struct Material {
@@ -78,6 +79,7 @@ struct Material {
 RELIEF_ARRAY(Words, uint)
 RELIEF_ARRAY(Floats, float)
 RELIEF_ARRAY(WordPairs, uvec2)
+RELIEF_ARRAY(WordQuads, uvec4)
 RELIEF_ARRAY(Vectors, vec4)
 RELIEF_ARRAY(Pairs, vec2)
 RELIEF_ARRAY(Queries, SampleQuery)
@@ -96,8 +98,13 @@ struct Targets {
     RELIEF_ADDRESS(Pairs) dicedTexCoords;
     RELIEF_ADDRESS(Vectors) dicedTexGradients; // as kBindMeshTexGradients
     RELIEF_ADDRESS(Words) dicedIndices;
-    RELIEF_ADDRESS(Floats) layers;       // layers.comp: kLayerChannels floats per pixel
-    RELIEF_ADDRESS(Materials) materials; // light.comp with kHasInstances: one per instance
+    RELIEF_ADDRESS(Floats) layers;        // layers.comp: kLayerChannels floats per pixel
+    RELIEF_ADDRESS(Materials) materials;  // light.comp with kHasInstances: one per instance
+    RELIEF_ADDRESS(WordQuads) screen;     // as kBindScreen
+    RELIEF_ADDRESS(WordPairs) samples;    // as kBindSamples
+    RELIEF_ADDRESS(Words) shadow;         // as kBindShadowCodes
+    RELIEF_ADDRESS(Words) crossings;      // kPassCracks: front faces less back faces per pixel
+    RELIEF_ADDRESS(Words) largeTriangles; // kLarge...
 };
 
 struct PassInputs {
@@ -111,8 +118,8 @@ struct PassInputs {
 
 #ifdef __cplusplus
 static_assert(sizeof(ModelTables) == 18 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
-static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 12);
-static_assert(sizeof(Material) == 20 && sizeof(Targets) == 11 * 8);
+static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16);
+static_assert(sizeof(Material) == 20 && sizeof(Targets) == 16 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));
 } // namespace relief::pass
 

@@ -38,6 +38,14 @@ struct DicePush {
     uint count; // dice_edges.comp: vertices of all dispatches
 };
 
+// raster_*.comp
+struct RasterPush {
+    ivec2 size;            // pixels of the target
+    uint first;            // number of the dispatch's first vertex or triangle
+    uint count;            // of all dispatches
+    float depthAtInfinity; // of the projection, below 0: depth = depthAtInfinity + c / w
+};
+
 // sample.comp
 struct SamplePush {
     uint count; // queries
@@ -45,7 +53,7 @@ struct SamplePush {
 
 #ifdef __cplusplus
 static_assert(sizeof(GridPush) == 12 && sizeof(MeshPush) == 12 && sizeof(DicePush) == 8 && sizeof(SamplePush) == 4 &&
-              sizeof(DicedFacePush) == 120);
+              sizeof(DicedFacePush) == 120 && sizeof(RasterPush) == 20);
 
 // Bytes that every pipeline's layout reserves: what the largest block takes. Vulkan promises 128.
 inline constexpr uint kPushBytes = 120;

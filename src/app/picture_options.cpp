@@ -170,6 +170,8 @@ void addDevice(CLI::App& app, std::string& name) {
 void addPicture(CLI::App& app, SceneDesc& scene, PictureArgs& picture) {
     addPath(app, picture.triangles.path, "tessellation, or grid where the device has no tessellation shaders");
     addTriangles(app, picture.triangles.options);
+    listIn("triangles", "RASTER",
+           addEnum(app, "--raster", picture.raster, kRasters, "what makes samples of triangles"));
     addCamera(app, scene.camera, scene.size);
     addDetail(app, scene.object);
     addMaterial(app, scene.object.material);
@@ -193,6 +195,7 @@ RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene
     RenderOptions options{toTriangleOptions(picture.triangles, device)};
     options.show = picture.show;
     options.layers = picture.layers;
+    options.raster = picture.raster;
     options.filter = picture.filter;
     options.anisotropy = picture.anisotropy;
     options.lighting = makeLighting(scene.lighting, scene.camera.azimuth, nullptr);

@@ -16,6 +16,7 @@ struct PictureArgs {
     TriangleArgs triangles;
     Show show = RenderOptions().show;
     std::vector<Layer> layers;
+    Raster raster = RenderOptions().raster;
     Filter filter = RenderOptions().filter;
     float anisotropy = RenderOptions().anisotropy;
     Finish finish;

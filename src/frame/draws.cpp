@@ -60,6 +60,7 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
                               .memory = frame.options.memory});
     const DicedMesh& mesh = drawn.diced;
     drawn.bindings[kBindMesh] = mesh.vertices.binding();
+    drawn.bindings[kBindMeshIndices] = mesh.indices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
     stats.triangleCount += mesh.triangleCount;
@@ -103,7 +104,7 @@ void Renderer::Parts::draw(Rendering& rendering, const Frame& frame, DrawPass pa
         bind(commands, pipeline, drawn.set);
         if (drawn.mesh != nullptr) {
             pushConstants(commands, pipeline, MeshPush{});
-            vkCmdBindIndexBuffer(commands, drawn.mesh->indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+            vkCmdBindIndexBuffer(commands, drawn.mesh->indices.buffer.handle.get(), 0, VK_INDEX_TYPE_UINT32);
             rendering.drawMesh(0, drawn.mesh->triangleCount);
         } else if (frame.path == Path::dice) {
             if (pass == DrawPass::layers)
@@ -156,7 +157,7 @@ void Renderer::Parts::drawDiced(Rendering& rendering, const Frame& frame, const 
                                 const Pipeline& pipeline) {
     const VkCommandBuffer commands = rendering.commands();
     const DicedMesh& mesh = drawn.diced;
-    vkCmdBindIndexBuffer(commands, mesh.indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(commands, mesh.indices.buffer.handle.get(), 0, VK_INDEX_TYPE_UINT32);
     if (!frame.technique.wantsFaces) {
         pushConstants(commands, pipeline, MeshPush{});
         rendering.drawMesh(0, mesh.triangleCount);
@@ -172,7 +173,7 @@ void Renderer::Parts::drawDicedFaces(Rendering& rendering, const Drawn& drawn, c
     const VkCommandBuffer commands = rendering.commands();
     const DicedMesh& mesh = drawn.diced;
     RELIEF_CHECK(mesh.faces.size() + 1 == mesh.firstTriangles.size());
-    vkCmdBindIndexBuffer(commands, mesh.indices.handle.get(), 0, VK_INDEX_TYPE_UINT32);
+    vkCmdBindIndexBuffer(commands, mesh.indices.buffer.handle.get(), 0, VK_INDEX_TYPE_UINT32);
     drawFaces(rendering, mesh, [&](std::uint32_t face) { pushConstants(commands, pipeline, mesh.faces[face]); });
 }
 

@@ -116,6 +116,13 @@ enum class Filter {
     anisotropic, ///< several such lookups along the longest axis of what it covers
 };
 
+/// What makes samples of triangles.
+enum class Raster {
+    automatic, ///< what is faster for the picture on its device
+    hardware,  ///< the device's fixed function
+    compute,   ///< compute shaders, on devices with DeviceTraits::hasLongAtomics, for meshes
+};
+
 enum class Show { shaded, normal, height, rate, faces, wireframe };
 
 struct RenderOptions : TriangleOptions {
@@ -123,6 +130,7 @@ struct RenderOptions : TriangleOptions {
     Camera camera;
     Lighting lighting;
     Bounds bounds; ///< of all instances in the world: what the shadow map covers
+    Raster raster = Raster::automatic;
     Filter filter = Filter::mipmap;
     float anisotropy = 8; ///< anisotropic: most lookups per pixel, at most DeviceTraits::maxAnisotropy
     std::vector<Layer> layers;
@@ -137,6 +145,7 @@ struct FrameStats {
     std::uint64_t hiddenFaceCount = 0;              ///< out of view or facing away: only in the shadow map
     std::uint64_t vertexCount = 0;                  ///< distinct samples of the surface: what a dense mesh would store
     std::uint32_t drawCount = 0, maxRate = 0;
+    Raster raster = Raster::hardware; ///< that made the samples
     /// Times of the passes on the device, milliseconds; 0 where it cannot time.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
     double wallMs = 0;       ///< rates to pixels on the host
@@ -173,9 +182,11 @@ public:
         return render(std::span(&instance, 1), options);
     }
 
-    /// Pixels that see a crack, of a closed surface: front faces count up and back faces down along each line of sight,
-    /// which adds up to nothing however the surface folds. Before that, vertices whose position has bits of odd parity
+    /// Front faces less back faces along the line of sight through the centre of each pixel, from the top row: 0
+    /// everywhere for a closed surface, however it folds. Before that, vertices whose position has bits of odd parity
     /// move aside by `shift` (cage units), so that two samples that differ in the last bit separate visibly.
+    std::vector<int> countCrossings(const Instance& instance, const RenderOptions& options, const vec3& shift = {});
+    /// Pixels that see a crack, of a closed surface: those whose crossings are not 0.
     std::uint64_t crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift);
 
 private:

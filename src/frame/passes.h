@@ -12,15 +12,31 @@ mat4 perspectiveMatrix(const Camera& camera, double aspect);
 /// Parallel projection along the key light, holding the whole object; nearer to the light is larger.
 mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
 
-/// The images of a picture in the making.
-struct Targets {
+/// What draws of the device write samples to.
+struct SampleImages {
     Texture normals, colors, depths; ///< four samples per pixel, what surface.frag writes
     Texture instances;               ///< of the picture's size once one has several, else a single pixel
     Texture shadow;
-    Buffer picture; ///< four halves per pixel, mapped
+    bool isPlaceholder = false; ///< of single pixels
 };
 
-Targets makeTargets(Device& device, const RendererDesc& desc);
+SampleImages makeSampleImages(Device& device, const RendererDesc& desc);
+
+/// Bytes of the four samples of a pixel in SampleBuffers.
+inline constexpr std::uint64_t kSampleBytes = 32;
+
+/// What the compute rasterizer writes samples to, and what it needs meanwhile.
+struct SampleBuffers {
+    TexelBuffer samples; ///< four per pixel, two per element: normal and depth of each
+    TexelBuffer shadow;  ///< one word per texel of the shadow map
+    TexelBuffer screen;  ///< vertices of the largest mesh so far
+    Buffer large;        ///< triangles for raster_large.comp: as many as the largest mesh so far has
+};
+
+SampleBuffers makeSampleBuffers(Device& device, const RendererDesc& desc);
+
+/// Four halves per pixel, mapped.
+Buffer makePictureBuffer(Device& device, const RendererDesc& desc);
 Texture makeInstanceTarget(Device& device, const RendererDesc& desc, VkSampleCountFlagBits samples);
 
 /// The images that layers are made from, one sample per pixel; made when layers are first asked for.

@@ -105,7 +105,9 @@ const Pipeline& Renderer::Parts::computePipeline(const char* file, const Surface
 
 const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame) {
     return computePipeline("light.comp", nullptr,
-                           {.show = frame.technique.constant, .hasInstances = frame.hasInstances()});
+                           {.show = frame.technique.constant,
+                            .hasInstances = frame.hasInstances(),
+                            .readsSampleBuffers = frame.raster == Raster::compute});
 }
 
 } // namespace relief

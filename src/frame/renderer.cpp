@@ -28,7 +28,7 @@ Renderer::Renderer(Device& device, const RendererDesc& desc) {
 Renderer::~Renderer() = default;
 
 Renderer::Parts::Parts(Device& device, const RendererDesc& desc)
-    : device(device), desc(desc), targets(makeTargets(device, desc)), resources(device),
+    : device(device), desc(desc), picture(makePictureBuffer(device, desc)), resources(device),
       around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
       nearest(makeSampler(device, clampedSampler(VK_FILTER_NEAREST))), timer(device, 8), counter(device), rater(device),
       dicer(device) {}
@@ -69,17 +69,34 @@ void Renderer::Parts::describeView(Frame& frame) {
     light.toShadow = shadowMatrix(key, o.bounds);
     light.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
     light.shadowSoftness = 3.0f / float(desc.shadowSide);
+    light.shadowSide = std::uint32_t(desc.shadowSide);
 
     // The samples that light.comp reads.
     frame.bindings = resources.bindings();
     useEnvironment(frame);
     frame.inputs.material = frame.materials.front();
-    frame.inputs.targets.picture = targets.picture.address;
-    frame.bindings[kBindShadow] = {.view = targets.shadow.view.get(), .sampler = nearest.get()};
-    frame.bindings[kBindDepths] = {.view = targets.depths.view.get(), .sampler = nearest.get()};
-    frame.bindings[kBindNormals] = {.view = targets.normals.view.get(), .sampler = nearest.get()};
-    frame.bindings[kBindColors] = {.view = targets.colors.view.get(), .sampler = nearest.get()};
-    frame.bindings[kBindInstances] = {.view = targets.instances.view.get(), .sampler = nearest.get()};
+    frame.inputs.targets.picture = picture.address;
+}
+
+/// The images that the device draws to, as what light.comp reads. Bound are some in any case, for Vulkan wants images
+/// of as many samples as the shader says: single pixels where the compute rasterizer makes the picture's.
+void Renderer::Parts::useImages(Frame& frame) {
+    const bool areDrawn = frame.raster == Raster::hardware;
+    if (!images || (areDrawn && images->isPlaceholder)) {
+        images = makeSampleImages(device, areDrawn ? desc : RendererDesc{.width = 1, .height = 1, .shadowSide = 1});
+        images->isPlaceholder = !areDrawn;
+    }
+    const TextureDesc& marks = images->instances.desc;
+    if (areDrawn && frame.hasInstances() && uvec2(marks.width, marks.height) != size())
+        images->instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_4_BIT);
+    const auto use = [&](std::uint32_t slot, const Texture& image) {
+        frame.bindings[slot] = {.view = image.view.get(), .sampler = nearest.get()};
+    };
+    use(kBindShadow, images->shadow);
+    use(kBindDepths, images->depths);
+    use(kBindNormals, images->normals);
+    use(kBindColors, images->colors);
+    use(kBindInstances, images->instances);
 }
 
 VkSampler Renderer::Parts::samplerOf(const RenderOptions& options, Wrap wrap) {
@@ -150,9 +167,6 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
             {.albedo = instance.material.albedo, .roughness = std::clamp(instance.material.roughness, 0.05f, 1.0f)});
     while (inputBuffers.size() < instances.size() + 1) inputBuffers.push_back(makeInputBuffer(device));
     frame.drawn.resize(instances.size());
-    const TextureDesc& marks = targets.instances.desc;
-    if (frame.hasInstances() && uvec2(marks.width, marks.height) != size())
-        targets.instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_4_BIT);
     describeView(frame);
     if (frame.hasInstances()) {
         frame.materialTable = uploadArray<pass::Material>(device, "materials", frame.materials);
@@ -171,6 +185,11 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
             ++frame.stats.drawCount;
         }
     }
+
+    // What makes samples of them.
+    frame.raster = frame.stats.raster = rasterOf(frame);
+    useImages(frame);
+    if (frame.raster == Raster::compute) useBuffers(frame);
     return frame;
 }
 
@@ -179,7 +198,11 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
 void Renderer::Parts::makeSets(Frame& frame, DrawPass pass) {
     const PipelineLayoutDesc layout = passLayout(device);
     for (Drawn& drawn : frame.drawn)
-        drawn.set = makeBindingSet(device, pipelineOf(frame, drawn, pass), layout, drawn.bindings);
+        drawn.set = makeBindingSet(device,
+                                   frame.raster == Raster::compute && pass != DrawPass::layers
+                                       ? rasterPipeline("raster_triangles.comp", frame, drawn, pass)
+                                       : pipelineOf(frame, drawn, pass),
+                                   layout, drawn.bindings);
     if (pass == DrawPass::surface) frame.set = makeBindingSet(device, lightPipeline(frame), layout, frame.bindings);
 }
 
@@ -197,15 +220,23 @@ Rendering Renderer::Parts::begin(VkCommandBuffer commands, const Frame& frame, R
 }
 
 void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
-    Rendering rendering = begin(commands, frame, {{}, attachment(targets.shadow), uvec2(desc.shadowSide)});
+    if (frame.raster == Raster::compute) {
+        rasterize(commands, frame, DrawPass::shadow, buffers->shadow.buffer, uvec2(desc.shadowSide));
+        return;
+    }
+    Rendering rendering = begin(commands, frame, {{}, attachment(images->shadow), uvec2(desc.shadowSide)});
     draw(rendering, frame, DrawPass::shadow);
     rendering.end();
 }
 
 void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) {
+    if (frame.raster == Raster::compute) {
+        rasterize(commands, frame, DrawPass::surface, buffers->samples.buffer, size());
+        return;
+    }
     Rendering::Targets all{
-        {attachment(targets.normals), attachment(targets.colors)}, attachment(targets.depths), size()};
-    if (frame.hasInstances()) all.colors.push_back(attachment(targets.instances));
+        {attachment(images->normals), attachment(images->colors)}, attachment(images->depths), size()};
+    if (frame.hasInstances()) all.colors.push_back(attachment(images->instances));
     Rendering rendering = begin(commands, frame, std::move(all));
     draw(rendering, frame, DrawPass::surface);
     if (frame.technique.hasLines) draw(rendering, frame, DrawPass::lines);
@@ -239,7 +270,7 @@ Picture Renderer::Parts::read(Frame& frame) {
     if (times.size() == 3)
         frame.stats.shadowMs = times[0], frame.stats.colorMs = times[1], frame.stats.lightMs = times[2];
     if (frame.options.countsPipeline) frame.stats.pipeline = counter.counts();
-    const auto* halves = static_cast<const std::uint16_t*>(targets.picture.mapped);
+    const auto* halves = static_cast<const std::uint16_t*>(this->picture.mapped);
     Picture picture;
     picture.width = desc.width;
     picture.height = desc.height;
@@ -261,40 +292,17 @@ Picture Renderer::render(std::span<const Instance> instances, const RenderOption
     return picture;
 }
 
-std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift) {
-    // The instance alone, and a target that adds signed numbers.
+std::vector<int> Renderer::countCrossings(const Instance& instance, const RenderOptions& options, const vec3& shift) {
+    // The instance alone.
     Parts& parts = *parts_;
     Parts::Frame frame = parts.prepare(std::span(&instance, 1), options);
     frame.drawn.front().inputs.view.crackShift = shift;
-    parts.makeSets(frame, DrawPass::cracks);
-    const auto width = std::uint32_t(parts.desc.width), height = std::uint32_t(parts.desc.height);
-    const Texture sums =
-        makeTexture(parts.device, {.name = "cracks",
-                                   .width = width,
-                                   .height = height,
-                                   .format = kCrackFormat,
-                                   .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT});
-    const Buffer read = makeBuffer(parts.device, {.name = "cracks",
-                                                  .bytes = std::uint64_t(width) * height * 2,
-                                                  .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                  .memory = MemoryUse::readback});
+    return frame.raster == Raster::compute ? parts.crossingsInCompute(frame) : parts.crossingsOfDraws(frame);
+}
 
-    // One pass, copied to the host.
-    parts.device.submitAndWait([&](VkCommandBuffer commands) {
-        parts.writeInputs(commands, frame);
-        Rendering rendering = parts.begin(commands, frame, {{attachment(sums)}, {}, parts.size()});
-        parts.draw(rendering, frame, DrawPass::cracks);
-        rendering.end();
-        VkBufferImageCopy region{};
-        region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-        region.imageExtent = {width, height, 1};
-        vkCmdCopyImageToBuffer(commands, sums.handle.get(), VK_IMAGE_LAYOUT_GENERAL, read.handle.get(), 1, &region);
-        barrier(commands);
-    });
-    const auto* halves = static_cast<const std::uint16_t*>(read.mapped);
-    // Pixels whose sum is not 0; minus zero is zero.
-    return std::uint64_t(std::count_if(halves, halves + std::size_t(width) * height,
-                                       [](std::uint16_t half) { return (half & 0x7fffu) != 0; }));
+std::uint64_t Renderer::crackPixels(const Instance& instance, const RenderOptions& options, const vec3& shift) {
+    const std::vector<int> sums = countCrossings(instance, options, shift);
+    return std::uint64_t(std::ranges::count_if(sums, [](int sum) { return sum != 0; }));
 }
 
 } // namespace relief

@@ -15,7 +15,9 @@ struct Renderer::Parts {
 
     Device& device;
     RendererDesc desc;
-    Targets targets;
+    Buffer picture;                     ///< what light.comp writes
+    std::optional<SampleImages> images; ///< these and the others are made when a picture first needs them
+    std::optional<SampleBuffers> buffers;
     PassResources resources;
     std::vector<Buffer> inputBuffers; ///< one per instance, and one for the passes over pixels
     Owned<VkSampler> around, nearest;
@@ -63,6 +65,7 @@ struct Renderer::Parts {
         PassBindings bindings{};
         std::vector<Drawn> drawn;
         std::vector<pass::Material> materials;
+        Raster raster = Raster::hardware;
         Buffer materialTable; ///< where there are several instances
         BindingSet set;
         FrameStats stats;
@@ -87,6 +90,7 @@ struct Renderer::Parts {
     void makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats);
     void makeGrids(const SurfaceModel& model, const DrawPlan& plan);
     void makeSets(Frame& frame, DrawPass pass);
+    void useImages(Frame& frame);
     void writeInputs(VkCommandBuffer commands, const Frame& frame);
 
     // Pipelines.
@@ -106,10 +110,21 @@ struct Renderer::Parts {
     static void drawDicedFaces(Rendering& rendering, const Drawn& drawn, const Pipeline& pipeline);
     Rendering begin(VkCommandBuffer commands, const Frame& frame, Rendering::Targets all) const;
 
+    // The compute rasterizer: raster.cpp.
+    [[nodiscard]] std::string obstacleToRaster(const Frame& frame) const;
+    [[nodiscard]] Raster rasterOf(const Frame& frame) const;
+    void useBuffers(Frame& frame);
+    const Pipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
+    /// Clears the target of a pass, and writes all instances to it.
+    void rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target, uvec2 targetSize);
+    void rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, DrawPass pass, uvec2 size);
+
     // Passes.
     void shadowPass(VkCommandBuffer commands, const Frame& frame);
     void surfacePass(VkCommandBuffer commands, const Frame& frame);
     void lightPass(VkCommandBuffer commands, const Frame& frame);
+    std::vector<int> crossingsOfDraws(Frame& frame);
+    std::vector<int> crossingsInCompute(Frame& frame);
     void renderLayers(Frame& frame, Picture& picture);
     void layerPass(VkCommandBuffer commands, const Frame& frame);
     void layerValuesPass(VkCommandBuffer commands, const Frame& frame);

@@ -139,6 +139,7 @@ void Device::makeDevice() {
 
     // Required: devices without these are never picked (isUsable).
     use.v12.bufferDeviceAddress = use.v12.scalarBlockLayout = VK_TRUE;
+    use.v12.shaderBufferInt64Atomics = traits_.hasLongAtomics ? VK_TRUE : VK_FALSE;
     use.v13.dynamicRendering = use.v13.synchronization2 = use.v13.maintenance4 = VK_TRUE;
 
     // The device, its queue, and what names its objects.

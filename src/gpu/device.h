@@ -43,6 +43,10 @@ struct DeviceTraits {
     bool hasWireframe = false; ///< fillModeNonSolid
     float maxAnisotropy = 1;   ///< of samplers; 1 without samplerAnisotropy
     bool hasTransformFeedback = false;
+    bool hasLongAtomics = false;  ///< 64-bit atomics on buffers: what the compute rasterizer writes with
+    /// Compute shaders make samples of pixel-sized triangles faster than the fixed function: on Mesa's CPU driver in a
+    /// quarter to a half of the time (`relief bench frame`). On GPUs it is not measured.
+    bool rastersFasterInCompute = false;
     bool hasVertexStores = false; ///< vertex stages may write to buffers
     std::uint32_t maxTessellationLevel = 0;
     std::uint32_t maxTexelBufferElements = 0; ///< of one texel buffer view

@@ -119,8 +119,9 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     driver.pNext = &subgroup;
     vkGetPhysicalDeviceProperties2(physical, &properties);
-    VkPhysicalDeviceFeatures features;
-    vkGetPhysicalDeviceFeatures(physical, &features);
+    NeededFeatures has;
+    vkGetPhysicalDeviceFeatures2(physical, &has.base);
+    const VkPhysicalDeviceFeatures& features = has.base.features;
     VkPhysicalDeviceMemoryProperties memory;
     vkGetPhysicalDeviceMemoryProperties(physical, &memory);
 
@@ -140,6 +141,7 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     traits.maxAnisotropy = features.samplerAnisotropy == VK_TRUE ? limits.maxSamplerAnisotropy : 1;
     traits.hasWireframe = features.fillModeNonSolid == VK_TRUE;
     traits.maxTessellationLevel = traits.hasTessellation ? limits.maxTessellationGenerationLevel : 0;
+    traits.hasLongAtomics = features.shaderInt64 == VK_TRUE && has.v12.shaderBufferInt64Atomics == VK_TRUE;
     traits.hasVertexStores = features.vertexPipelineStoresAndAtomics == VK_TRUE;
     traits.hasTransformFeedback = hasExtension(physical, VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
     traits.maxTexelBufferElements =
@@ -161,6 +163,7 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
     if (driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE) {
         traits.tessellatedVerticesPerDraw = kLavapipeVerticesPerDraw;
         traits.meshTrianglesInFlight = kLavapipeTrianglesInFlight;
+        traits.rastersFasterInCompute = traits.hasLongAtomics;
         traits.evaluatesInVertexStages = traits.readsTablesAs == TableAccess::texelBuffers;
     }
     return traits;

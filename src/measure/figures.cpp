@@ -24,6 +24,8 @@ LineStyle chooseStyle(Method method) {
     case Method::simplifiedDraco: return {2, 2};
     case Method::grid: return {3, 1};
     case Method::dicing: return {4, 2};
+    case Method::dicingInCompute: return {4, 0};
+    case Method::denseInCompute: return {1, 3};
     case Method::displacement: return {0, 0};
     case Method::displacementAndBump: return {1, 1};
     case Method::bump: return {2, 2};

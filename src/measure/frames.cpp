@@ -12,14 +12,16 @@ namespace {
 /// The paths by which the device can draw a scene at a rate.
 std::vector<TimedDrawing> listPaths(const SceneOnDevice& on, const DeviceTraits& traits, int rate) {
     std::vector<TimedDrawing> all;
-    const auto add = [&](Method method, Path path) {
+    const auto add = [&](Method method, Path path, Raster raster = Raster::hardware) {
         all.push_back({.method = method, .instance = on.model, .options = on.renderOptions(rate)});
         all.back().options.path = path;
+        all.back().options.raster = raster;
     };
     if (traits.hasTessellation && std::uint32_t(rate) <= traits.maxTessellationLevel)
         add(Method::tessellation, Path::tessellation);
     add(Method::grid, Path::grid);
     add(Method::dicing, Path::dice);
+    if (traits.hasLongAtomics) add(Method::dicingInCompute, Path::dice, Raster::compute);
     return all;
 }
 
@@ -27,12 +29,17 @@ Renderer makeRenderer(SuiteContext& context, int side) {
     return Renderer(context.device, {.width = side, .height = side, .shadowSide = 1});
 }
 
-/// Times every path, and the dense mesh of the same triangles. Adds a row like `row` for each.
+/// Times every path and rasterizer, and the dense mesh of the same triangles. Adds a row like `row` for each.
 void timeAllMethods(SuiteContext& context, const SceneOnDevice& on, Renderer& renderer, int rate, int roundCount,
                     Row row) {
     std::vector<TimedDrawing> drawings = listPaths(on, context.device.traits(), rate);
     const MeshModel dense = uploadDenseMesh(context.device, makeDenseMesh(context.device, on.model, rate));
-    drawings.push_back({.method = Method::denseRaw, .instance = dense, .options = on.renderOptions(rate)});
+    const auto addDense = [&](Method method, Raster raster) {
+        drawings.push_back({.method = method, .instance = dense, .options = on.renderOptions(rate)});
+        drawings.back().options.raster = raster;
+    };
+    addDense(Method::denseRaw, Raster::hardware);
+    if (context.device.traits().hasLongAtomics) addDense(Method::denseInCompute, Raster::compute);
     timeDrawings(renderer, on.views, roundCount, drawings);
     for (const TimedDrawing& drawing : drawings) {
         Row filled = row;

@@ -50,7 +50,7 @@ const MetricInfo& describe(Metric metric);
 enum class Method {
     cageFloatMap, cageHalfMap, cageUnorm16Map, cageUnorm8Map, cageBc4Map,
     denseRaw, denseQuantised, denseDraco, simplifiedRaw, simplifiedQuantised, simplifiedDraco,
-    tessellation, grid, dicing,
+    tessellation, grid, dicing, dicingInCompute, denseInCompute,
     posedCage, posedCageTessellation, posedCageDicing, denseSkinnedOnDevice, densePosedOnHost,
     preparation, reliefRender,
     displacement, displacementAndBump, bump, undisplaced

@@ -88,6 +88,8 @@ constexpr Word<Method> kMethods[] = {
     {Method::tessellation, "tessellation"},
     {Method::grid, "grid"},
     {Method::dicing, "dicing"},
+    {Method::dicingInCompute, "dicing, compute rasterizer"},
+    {Method::denseInCompute, "dense mesh, compute rasterizer"},
     {Method::posedCage, "posed cage"},
     {Method::posedCageTessellation, "posed cage, tessellation"},
     {Method::posedCageDicing, "posed cage, dicing"},

@@ -182,7 +182,7 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     vertices = uploadTexels(device, {.name = "mesh"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
     texCoords =
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
-    indices = uploadArray<std::uint32_t>(device, "mesh indices", mesh.indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+    indices = uploadIndices(device, mesh.indices);
     if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
     uploadDetail(device, desc, *this);
     vertexCount = std::uint32_t(mesh.positions.size());

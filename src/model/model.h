@@ -171,7 +171,7 @@ struct MeshModel {
     TexelBuffer vertices;     ///< two texels per vertex: position with height, normal
     TexelBuffer texCoords;    ///< per vertex, or empty
     TexelBuffer texGradients; ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
-    Buffer indices;           ///< three 32-bit indices per triangle
+    TexelBuffer indices;      ///< three 32-bit indices per triangle; an index buffer too
     ModelPictures pictures;
     std::uint32_t vertexCount = 0, triangleCount = 0;
     bool hasTexCoords = false;

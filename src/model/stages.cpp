@@ -37,6 +37,10 @@ constexpr BindingRow kBindings[] = {
     {kBindSlopes, BindingKind::image},
     {kBindNormalMap, BindingKind::image},
     {kBindMeshTexGradients, BindingKind::floats},
+    {kBindMeshIndices, BindingKind::words},
+    {kBindScreen, BindingKind::words},
+    {kBindSamples, BindingKind::words},
+    {kBindShadowCodes, BindingKind::words},
 };
 static_assert(std::size(kBindings) == kBindCount);
 
@@ -89,6 +93,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdEntries] = entryCount;
     values[kIdHeightFunction] = heightFunction;
     values[kIdReadsRest] = readsRest;
+    values[kIdReadsSampleBuffers] = readsSampleBuffers;
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
@@ -117,6 +122,27 @@ std::uint64_t largestTable(const Device& device, std::uint64_t elementBytes) {
 
 TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words) {
     return uploadTexels(device, {.name = name}, VK_FORMAT_R32_UINT, std::as_bytes(words));
+}
+
+namespace {
+
+constexpr VkBufferUsageFlags kIndexUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_INDEX_BUFFER_BIT;
+
+bool readsIndices(const Device& device, std::uint64_t count) { return count <= largestTable(device, 4) / 4; }
+
+} // namespace
+
+TexelBuffer makeIndices(Device& device, std::uint64_t count) {
+    const BufferDesc desc{.name = "indices", .bytes = count * 4, .usage = kIndexUsage};
+    if (!readsIndices(device, count)) return {makeBuffer(device, desc), {}};
+    return makeTexels(device, desc, VK_FORMAT_R32_UINT);
+}
+
+TexelBuffer uploadIndices(Device& device, std::span<const std::uint32_t> indices) {
+    const BufferDesc desc{.name = "indices", .usage = kIndexUsage};
+    if (!readsIndices(device, indices.size())) return {uploadArray(device, desc.name, indices, desc.usage), {}};
+    return uploadTexels(device, desc, VK_FORMAT_R32_UINT, std::as_bytes(indices));
 }
 
 PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::uint32_t pushBytes) {
@@ -197,6 +223,7 @@ void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindi
 void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings) {
     inputs.model.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
     bindings[kBindMesh] = model.vertices.binding();
+    bindings[kBindMeshIndices] = model.indices.binding();
     bindings[kBindMeshTexCoords] = model.texCoords.binding();
     describePictures(model.pictures, inputs, bindings);
     bindings[kBindMeshTexGradients] = model.texGradients.binding();

@@ -31,6 +31,7 @@ struct ShaderConstants {
     std::uint32_t normalMap = kNormalMapNone;
     std::uint32_t heightFunction = 0; ///< HeightFunction::number()
     bool readsRest = false;
+    bool readsSampleBuffers = false;
 
     /// One value per id, in the order of ids.
     [[nodiscard]] std::vector<std::uint32_t> values() const;
@@ -47,6 +48,10 @@ std::uint64_t largestTable(const Device& device, std::uint64_t elementBytes);
 
 /// A table of 32-bit words.
 TexelBuffer uploadWords(Device& device, const std::string& name, std::span<const std::uint32_t> words);
+
+/// Indices of a mesh, three per triangle: what draws take, and a table where the device reads one of that size.
+TexelBuffer makeIndices(Device& device, std::uint64_t count);
+TexelBuffer uploadIndices(Device& device, std::span<const std::uint32_t> indices);
 
 /// The layout of `count` tables alone, bindings 0 to count - 1.
 PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::uint32_t pushBytes);

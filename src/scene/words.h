@@ -73,6 +73,13 @@ inline constexpr Word<Filter> kFilters[] = {
     {"anisotropic", Filter::anisotropic, "several such lookups along what the pixel covers"},
 };
 
+inline constexpr Word<Raster> kRasters[] = {
+    {"auto", Raster::automatic, "what is faster for the picture on the device"},
+    {"hardware", Raster::hardware, "the device's fixed function"},
+    {"compute", Raster::compute,
+     "compute shaders, which pixel-sized triangles may suit better: for --path dice and meshes"},
+};
+
 inline constexpr Word<HeightSpace> kHeightSpaces[] = {
     {"absolute", HeightSpace::absolute, "cage units in every pose"},
     {"stretch", HeightSpace::stretch, "heights grow and shrink with the surface"},

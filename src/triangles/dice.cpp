@@ -225,9 +225,7 @@ DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& opti
                                     .bytes = options.wantsTexGradients ? work.vertexCount * kTexGradientBytes : 0,
                                     .usage = usage},
                                    VK_FORMAT_R32G32B32A32_SFLOAT);
-    mesh.indices = makeBuffer(
-        device,
-        {.name = "diced indices", .bytes = work.triangleCount * 12, .usage = usage | VK_BUFFER_USAGE_INDEX_BUFFER_BIT});
+    mesh.indices = makeIndices(device, work.triangleCount * 3);
 
     // Known before anything is diced.
     mesh.firstTriangles = work.firstTriangles;
@@ -296,7 +294,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     inputs.targets.dicedVertices = mesh.vertices.buffer.address;
     inputs.targets.dicedTexCoords = mesh.texCoords.buffer.address;
     inputs.targets.dicedTexGradients = mesh.texGradients.buffer.address;
-    inputs.targets.dicedIndices = mesh.indices.address;
+    inputs.targets.dicedIndices = mesh.indices.buffer.address;
 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
@@ -362,7 +360,7 @@ DenseMesh readBack(Device& device, const DicedMesh& diced) {
         mesh.normals.emplace_back(texels[i + 1]);
     }
     mesh.indices.resize(3 * std::size_t(diced.triangleCount));
-    downloadBytes(device, diced.indices, std::as_writable_bytes(std::span(mesh.indices)));
+    downloadBytes(device, diced.indices.buffer, std::as_writable_bytes(std::span(mesh.indices)));
     if (!diced.hasTexCoords) return mesh;
     mesh.texCoords.resize(diced.vertexCount);
     downloadBytes(device, diced.texCoords.buffer, std::as_writable_bytes(std::span(mesh.texCoords)));

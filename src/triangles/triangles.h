@@ -120,7 +120,7 @@ struct DicedMesh {
     TexelBuffer vertices;                      ///< two texels each: position and height, normal
     TexelBuffer texCoords;                     ///< empty unless asked for
     TexelBuffer texGradients;                  ///< two texels each, see shaders/varyings.glsl; empty unless asked for
-    Buffer indices;                            ///< three 32-bit indices per triangle, face after face
+    TexelBuffer indices;                       ///< three 32-bit indices per triangle, face after face
     std::vector<std::uint32_t> firstTriangles; ///< of each face; one more at the end
     std::vector<std::uint32_t> faceRates;      ///< the largest around each face
     std::vector<std::uint32_t> runFirsts;      ///< first vertex of each run along edges; one more at the end

@@ -1,0 +1,164 @@
+// The compute rasterizer: which pictures it makes, and its dispatches. Its arithmetic is in shaders/raster*.
+#include <algorithm>
+#include <cmath>
+
+#include "frame/renderer_parts.h"
+
+namespace relief {
+namespace {
+
+/// Below this area the compute rasterizer is faster than the fixed function, in pixels (src/README.md, "Devices").
+constexpr double kMostPixelsPerTriangle = 10;
+
+constexpr std::uint32_t kRasterGroup = 64;
+
+struct MeshSize {
+    std::uint32_t vertexCount, triangleCount;
+};
+
+/// About how many pixels a box covers in the picture.
+double coveredPixels(const Bounds& bounds, const mat4& toClip, uvec2 size) {
+    dvec2 low(1), high(-1);
+    for (int corner = 0; corner < 8; ++corner) {
+        const dvec3 at((corner & 1) != 0 ? bounds.upper.x : bounds.lower.x,
+                       (corner & 2) != 0 ? bounds.upper.y : bounds.lower.y,
+                       (corner & 4) != 0 ? bounds.upper.z : bounds.lower.z);
+        const glm::dvec4 clip = glm::dmat4(toClip) * glm::dvec4(at, 1);
+        if (!(clip.w > 0)) return double(size.x) * size.y;
+        low = glm::min(low, dvec2(clip) / clip.w), high = glm::max(high, dvec2(clip) / clip.w);
+    }
+    const dvec2 sides = glm::max(glm::min(high, dvec2(1)) - glm::max(low, dvec2(-1)), dvec2(0));
+    return 0.25 * sides.x * sides.y * size.x * size.y;
+}
+
+std::uint32_t groupsOf(std::uint32_t count) { return (count + kRasterGroup - 1) / kRasterGroup; }
+
+} // namespace
+
+// --- choice
+// -----------------------------------------------------------------------------------------------------------
+
+/// Why the compute rasterizer cannot make this picture; empty where it can.
+std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
+    if (!device.traits().hasLongAtomics) return fmt::format("{} has no 64-bit atomics", device.traits().name);
+    if (std::uint64_t(desc.width) * std::uint64_t(desc.height) * kSampleBytes > largestTable(device, 16))
+        return fmt::format("{} reads no table of all samples of {} x {} pixels", device.traits().name, desc.width,
+                           desc.height);
+    const Show show = frame.technique.show;
+    if (show != Show::shaded && show != Show::normal) return "this --show is drawn by the device";
+    if (frame.hasInstances()) return "several instances are drawn by the device";
+    for (const Drawn& drawn : frame.drawn) {
+        if (drawn.surface != nullptr && frame.path != Path::dice) return "it takes meshes: --path dice";
+        const ModelPictures& pictures = drawn.pictures();
+        if (pictures.albedo || pictures.slopes || pictures.normalMap || drawn.isBentByFunction())
+            return "textures are drawn by the device";
+        if (drawn.bindings[kBindMeshIndices].isEmpty()) return "the mesh is too large for it";
+    }
+    return "";
+}
+
+Raster Renderer::Parts::rasterOf(const Frame& frame) const {
+    const std::string obstacle = obstacleToRaster(frame);
+    const Raster asked = frame.options.raster;
+    if (asked == Raster::compute && !obstacle.empty())
+        fail(Failure::usage, "the compute rasterizer cannot draw this picture: {}", obstacle);
+    if (asked != Raster::automatic) return asked;
+    if (!obstacle.empty() || !device.traits().rastersFasterInCompute) return Raster::hardware;
+    const double pixels = coveredPixels(frame.options.bounds, frame.inputs.view.toClip, size());
+    const bool areSmall = pixels < kMostPixelsPerTriangle * 0.5 * double(frame.stats.triangleCount);
+    return areSmall ? Raster::compute : Raster::hardware;
+}
+
+// --- dispatches
+// -------------------------------------------------------------------------------------------------------
+
+namespace {
+
+template <typename Drawn>
+MeshSize meshSizeOf(const Drawn& drawn) {
+    if (drawn.mesh != nullptr) return {drawn.mesh->vertexCount, drawn.mesh->triangleCount};
+    return {drawn.diced.vertexCount, drawn.diced.triangleCount};
+}
+
+} // namespace
+
+/// The buffers that hold samples, as what the passes write and light.comp reads.
+void Renderer::Parts::useBuffers(Frame& frame) {
+    // Those of one vertex and of one triangle are as large as the largest mesh needs.
+    if (!buffers) buffers = makeSampleBuffers(device, desc);
+    MeshSize largest{0, 0};
+    for (const Drawn& drawn : frame.drawn) {
+        const MeshSize mesh = meshSizeOf(drawn);
+        largest.vertexCount = std::max(largest.vertexCount, mesh.vertexCount);
+        largest.triangleCount = std::max(largest.triangleCount, mesh.triangleCount);
+    }
+    const std::uint64_t screenBytes = std::uint64_t(largest.vertexCount) * 16;
+    const std::uint64_t largeBytes = (std::uint64_t(largest.triangleCount) + kLargeFirst) * 4;
+    if (buffers->screen.buffer.bytes < screenBytes)
+        buffers->screen =
+            makeTexels(device, {.name = "vertices on the screen", .bytes = screenBytes}, VK_FORMAT_R32G32B32A32_UINT);
+    if (buffers->large.bytes < largeBytes)
+        buffers->large =
+            makeBuffer(device, {.name = "large triangles",
+                                .bytes = largeBytes,
+                                .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+    for (Drawn& drawn : frame.drawn) {
+        drawn.bindings[kBindScreen] = buffers->screen.binding();
+        drawn.inputs.targets.screen = buffers->screen.buffer.address;
+        drawn.inputs.targets.samples = buffers->samples.buffer.address;
+        drawn.inputs.targets.shadow = buffers->shadow.buffer.address;
+        drawn.inputs.targets.largeTriangles = buffers->large.address;
+    }
+    frame.bindings[kBindSamples] = buffers->samples.binding();
+    frame.bindings[kBindShadowCodes] = buffers->shadow.binding();
+}
+
+const Pipeline& Renderer::Parts::rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn,
+                                                DrawPass pass) {
+    const DrawPassRow& row = rowOf(pass);
+    ShaderConstants constants{.groupSize = kRasterGroup, .pass = row.constant};
+    if (row.hasNormals) {
+        constants.show = frame.technique.constant;
+        constants.isPlaced = drawn.inputs.view.normalToWorld != mat3(1);
+    }
+    return computePipeline(file, nullptr, constants);
+}
+
+void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, DrawPass pass,
+                                    uvec2 targetSize) {
+    const Camera& camera = frame.options.camera;
+    RasterPush block{.size = ivec2(targetSize),
+                     .depthAtInfinity = float(-camera.nearDistance / (camera.farDistance - camera.nearDistance))};
+    const auto dispatch = [&](const char* file, std::uint32_t count) {
+        const Pipeline& pipeline = rasterPipeline(file, frame, drawn, pass);
+        bind(commands, pipeline, drawn.set);
+        block.count = count;
+        for (std::uint32_t first = 0; first < groupsOf(count); first += kGroupsAtOnce) {
+            block.first = first * kRasterGroup;
+            pushConstants(commands, pipeline, block);
+            vkCmdDispatch(commands, std::min(kGroupsAtOnce, groupsOf(count) - first), 1, 1);
+        }
+        barrier(commands);
+    };
+    // No large triangles yet; as many tiles as the picture has.
+    const uvec2 tiles = (targetSize + uvec2(kLargeTile - 1)) / uvec2(kLargeTile);
+    const std::uint32_t none[kLargeFirst] = {0, tiles.x * tiles.y, 1, 0};
+    vkCmdUpdateBuffer(commands, buffers->large.handle.get(), 0, sizeof(none), none);
+    const MeshSize mesh = meshSizeOf(drawn);
+    dispatch("raster_vertices.comp", mesh.vertexCount);
+    dispatch("raster_triangles.comp", mesh.triangleCount);
+    const Pipeline& large = rasterPipeline("raster_large.comp", frame, drawn, pass);
+    bind(commands, large, drawn.set);
+    pushConstants(commands, large, block);
+    vkCmdDispatchIndirect(commands, buffers->large.handle.get(), 0);
+    barrier(commands);
+}
+
+void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target,
+                                uvec2 targetSize) {
+    vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, 0); // nothing, farthest depth
+    for (const Drawn& drawn : frame.drawn) rasterizeMesh(commands, frame, drawn, pass, targetSize);
+}
+
+} // namespace relief
