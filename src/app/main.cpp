@@ -54,8 +54,10 @@ bool needsImages(const std::vector<std::string>& words) {
             if (word.ends_with(extension)) return true;
         return false;
     };
-    for (std::size_t i = 1; i < words.size(); ++i)
-        if (isPicture(words[i]) && !(words[i].ends_with(".png") && words[i - 1] == "-o")) return true;
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const bool isDrawn = words[i].ends_with(".png") && words[i - 1] == "-o";
+        if (words[i] == "--compare" || (isPicture(words[i]) && !isDrawn)) return true;
+    }
     return false;
 }
 

@@ -1,10 +1,13 @@
 // Pictures, by the module that holds OpenImageIO.
 #include "base/images.h"
 
-#include <string_view>
+#include <cstddef>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include "base/errors.h"
 #include "base/pictures/module.h"
@@ -13,11 +16,43 @@ namespace relief {
 
 namespace {
 
-const ImageModule& loadImageModule() {
+/// The folders that this program looks for libraries in, those of its run path first.
+std::vector<std::string> listLibraryFolders() {
+    void* program = dlopen(nullptr, RTLD_LAZY);
+    Dl_serinfo sizes;
+    if (program == nullptr || dlinfo(program, RTLD_DI_SERINFOSIZE, &sizes) != 0) return {};
+    std::vector<std::max_align_t> memory(sizes.dls_size / sizeof(std::max_align_t) + 1);
+    auto* info = reinterpret_cast<Dl_serinfo*>(memory.data());
+    *info = sizes;
+    if (dlinfo(program, RTLD_DI_SERINFO, info) != 0) return {};
+    std::vector<std::string> folders;
+    const Dl_serpath* paths = info->dls_serpath;
+    for (unsigned i = 0; i < info->dls_cnt; ++i) folders.emplace_back(paths[i].dls_name);
+    return folders;
+}
+
+/// Loads the library, or sets `why` to the reason.
+void* openImageModule(std::string& why) {
     // By its name alone: the run path of what is linked with this function says where it lies.
     void* library = dlopen(RELIEF_IMAGE_MODULE, RTLD_LAZY | RTLD_LOCAL);
+    if (library != nullptr) return library;
+    why = dlerror();
+    if (why.find("No such file") == why.npos) return nullptr;
+    // With sanitizers dlopen is a function of theirs, and the run path that of their library.
+    for (const std::string& folder : listLibraryFolders()) {
+        const std::string path = folder + "/" + RELIEF_IMAGE_MODULE;
+        if (access(path.c_str(), F_OK) != 0) continue;
+        library = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
+        if (library == nullptr) why = dlerror();
+        return library;
+    }
+    return nullptr;
+}
+
+const ImageModule& loadImageModule() {
+    std::string why;
+    void* library = openImageModule(why);
     if (library == nullptr) {
-        const std::string_view why = dlerror();
         const bool isScarce = why.find("allocate") != why.npos || why.find("map segment") != why.npos;
         fail(isScarce ? Failure::device : Failure::internal, "the library that reads pictures cannot be loaded: {}{}",
              isScarce ? "out of memory: " : "", why);

@@ -16,7 +16,6 @@ struct EdgeFootprint {
 namespace {
 
 constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
-constexpr std::uint32_t kTessellatorLimit = 64;
 
 std::uint32_t rateLimit(const DeviceTraits& traits, const TriangleOptions& options) {
     if (options.path != Path::dice && !traits.evaluatesInVertexStages)

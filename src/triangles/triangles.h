@@ -19,6 +19,8 @@ DenseMesh denseMesh(const ReferenceSurface& surface, const HeightMap* map, int r
 enum class Path { tessellation, grid, dice }; ///< ways to make the triangles; dense meshes have their own
 enum class Spacing { equal, fractional };
 
+constexpr std::uint32_t kTessellatorLimit = 64; ///< most segments per edge of Path::tessellation, on any device
+
 struct TriangleOptions {
     Path path = Path::tessellation;
     std::optional<int> rate; ///< segments per cage edge, the same for all ...

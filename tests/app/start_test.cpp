@@ -24,7 +24,7 @@ int countImageLibraries(const std::string& words) {
 TEST(Start, loadsNoImageLibraryWithoutAPicture) {
     EXPECT_EQ(countImageLibraries("--help"), 0);
     EXPECT_EQ(countImageLibraries("info " + cagePath("torus")), 0);
-    EXPECT_EQ(countImageLibraries("render --size 32 -o $IN/a.png " + cagePath("cube")), 0);
+    EXPECT_EQ(countImageLibraries("render --size 32,32 -o $IN/a.png " + cagePath("cube")), 0);
 }
 
 TEST(Start, loadsTheImageLibraryWithAPicture) { EXPECT_EQ(countImageLibraries("info $IN/map.exr"), 1); }
