@@ -12,8 +12,7 @@ layout(constant_id = kIdNormalMap) const uint kNormalMap = kNormalMapNone;
 layout(set = 0, binding = kBindSlopes) uniform sampler2D slopeMap;
 layout(set = 0, binding = kBindNormalMap) uniform sampler2D normalMap;
 
-// Where (s,t) lies in a picture, whose rows go down.
-vec2 pictureCoordinates() { return vec2(vTexCoord.x, 1.0 - vTexCoord.y); }
+#include "lookup.glsl"
 
 // Added to the mip level that fits a pixel: displaced triangles show what each of four samples per pixel meets, and these are
 // half a pixel apart.
@@ -23,12 +22,12 @@ const float kSampleLevel = -1.0;
 // that is not displaced; on a displaced one what its triangles are too large for. Central differences over one texel commute
 // with interpolation between texels, so they are taken once per texel, and the sampler does the rest.
 vec2 missingSlopes() {
-    vec2 slopes = inputs.model.slopeUnit * texture(slopeMap, pictureCoordinates(), kSampleLevel).rg;
+    vec2 slopes = inputs.model.slopeUnit * lookUp(slopeMap, kSampleLevel).rg;
     return kHasHeight ? slopes - vec2(vGradientS.w, vGradientT.w) : slopes;
 }
 
 // The normal map at the fragment: a mean of unit normals, shorter than 1 where they differ.
-vec3 mappedNormal() { return texture(normalMap, pictureCoordinates()).xyz; }
+vec3 mappedNormal() { return lookUp(normalMap, 0.0).xyz; }
 
 vec3 unitOrElse(vec3 m, vec3 n) { return dot(m, m) > 0.0 ? normalize(m) : n; }
 
@@ -45,19 +44,24 @@ vec3 turnedNormal(vec3 n, vec3 ps, float side) {
 #ifdef RELIEF_HEIGHT_FUNCTION
 #include "function.glsl"
 
-// Gradient of the function's height along the surface, by central differences in two directions: over half a pixel, for samples
-// are that far apart, and at least over the step of vertices.
+layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
+
+// Gradient of the function's height along the surface, by central differences in directions that are perpendicular to each other:
+// over half a pixel, for samples are that far apart, and at least over the step of vertices. Two directions span the surface;
+// vertices that stretch have slopes of their own, and gradients are not perpendicular to their normals.
 vec3 functionGradient(vec3 n, vec3 gradientS, vec3 gradientT) {
     float pixel = max(length(dFdx(vRest)), length(dFdy(vRest)));
     float d = max(0.25 * pixel, inputs.model.heightStep);
     vec3 first = normalize(abs(n.x) < 0.7 ? cross(n, vec3(1, 0, 0)) : cross(n, vec3(0, 1, 0)));
     vec3 gradient = vec3(0);
-    for (uint i = 0u; i < 4u; ++i) {
-        vec3 direction = i < 2u ? first : cross(n, first);
-        float along = (i & 1u) == 0u ? d : -d;
-        vec3 local = kIsPlaced ? direction * inputs.view.normalToWorld : direction; // the transpose turns back
+    for (uint i = 0u; i < (kStretches && kHasHeight ? 6u : 4u); ++i) {
+        vec3 direction = i < 2u ? first : i < 4u ? cross(n, first) : n;
+        vec3 atRest = vRestGradient * direction;
+        float size = length(atRest);
+        if (!(size > 0.0)) continue;
+        float along = ((i & 1u) == 0u ? d : -d) / size;
         vec2 st = vTexCoord.xy + along * vec2(dot(gradientS, direction), dot(gradientT, direction));
-        gradient += heightOfFunction(vRest + along * local, st) / (2.0 * along) * direction;
+        gradient += heightOfFunction(vRest + along * atRest, kHasTexCoords ? st : vec2(0)) / (2.0 * along) * direction;
     }
     return gradient;
 }

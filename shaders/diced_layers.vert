@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform PushBlock { DicedFacePush push; };
 
 RELIEF_TABLE(kBindMesh, vec4, meshAt)
 RELIEF_TABLE(kBindMeshTexCoords, vec2, meshTexCoords)
-RELIEF_TABLE(kBindMeshTexGradients, vec4, meshTexGradients)
+#include "mesh_gradients.glsl"
 
 layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
 
@@ -72,11 +72,7 @@ void main() {
     vec2 uv = vertex >= push.firstInside ? insidePoint(vertex - push.firstInside) : borderPoint(vertex);
     vTexCoord = vec4(kHasTexCoords ? meshTexCoords(vertex) : uv, uv);
     vHeight = at.w;
-    vGradientS = kHasTexGradients ? worldGradient(meshTexGradients(2u * vertex)) : vec4(0);
-    vGradientT = kHasTexGradients ? worldGradient(meshTexGradients(2u * vertex + 1u)) : vec4(0);
-#ifdef RELIEF_HEIGHT_FUNCTION
-    vRest = at.xyz; // it is not displaced
-#endif
+    readGradients(vertex);
     vFace = push.face;
     vRate = 1u;
 }

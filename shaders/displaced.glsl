@@ -7,6 +7,9 @@
 #include "surface_point.glsl"
 
 layout(constant_id = kIdNormal) const uint kNormal = kNormalFull;
+#ifdef RELIEF_HEIGHT_FUNCTION
+layout(constant_id = kIdHasSlopes) const bool kHasSlopes = false; // fragments bend normals by the function: vertices do not
+#endif
 
 // --- normals --------------------------------------------------------------------------------------------------------
 
@@ -70,6 +73,10 @@ struct DisplacedSample {
     mat2 jacobian;   // of the texture coordinates
     vec4 gradientS;  // kHasTexGradients: as in varyings.glsl, in the model's own space
     vec4 gradientT;
+#ifdef RELIEF_HEIGHT_FUNCTION
+    vec3 rest;         // kHasTexGradients: as in varyings.glsl, in the model's own space
+    mat3 restGradient;
+#endif
 };
 
 // The drawn face's texture coordinates where the point is evaluated at another face.
@@ -84,6 +91,10 @@ vec2 ownTexCoords(uint face, vec2 uv) {
 // not displaced n is its normal, and these are the gradients of s and t along it. They are 0 where the surface has no two directions: nothing bends the normal there.
 void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
     s.gradientS = s.gradientT = vec4(0);
+#ifdef RELIEF_HEIGHT_FUNCTION
+    s.rest = point.rest.p;
+    s.restGradient = mat3(0);
+#endif
     if (point.isStraight) return;
     bool hasSlopes = kHasHeight && kNormal != kNormalLimit;
     vec3 xu = point.frame.pu, xv = point.frame.pv;
@@ -97,6 +108,9 @@ void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample h
     vec2 slopes = hasSlopes ? height.gradient / point.stretch : vec2(0);
     s.gradientS = vec4(point.stretch * (J[0].x * gradientU + J[1].x * gradientV), slopes.x);
     s.gradientT = vec4(point.stretch * (J[0].y * gradientU + J[1].y * gradientV), slopes.y);
+#ifdef RELIEF_HEIGHT_FUNCTION
+    s.restGradient = point.stretch * (outerProduct(point.rest.pu, gradientU) + outerProduct(point.rest.pv, gradientV));
+#endif
 }
 
 // What belongs to the face that a point is seen from.
@@ -119,16 +133,16 @@ float slopeStep(vec3 tangent) {
 }
 
 // h by the function, and (h_u, h_v) by central differences along the tangents: h_u = (h(p + d p_u, st + d st_u) - h(p - d p_u,
-// st - d st_u)) / 2d. One call in a loop: the compiler unfolds every one.
+// st - d st_u)) / 2d. Where fragments add all slopes, there are none here. One call in a loop: the compiler unfolds every one.
 HeightSample sampleFunction(LimitFrame rest, TexFrame tex) {
     vec2 d = vec2(slopeStep(rest.pu), slopeStep(rest.pv));
     HeightSample s = HeightSample(0.0, vec2(0));
-    for (uint i = 0u; i < (kNormal == kNormalLimit ? 1u : 5u); ++i) {
+    for (uint i = 0u; i < (kNormal == kNormalLimit || kHasSlopes ? 1u : 5u); ++i) {
         float along = i == 0u ? 0.0 : (i & 1u) == 1u ? 1.0 : -1.0;
         vec2 step = along * (i < 3u ? vec2(d.x, 0.0) : vec2(0.0, d.y));
         precise vec3 p = rest.p + step.x * rest.pu + step.y * rest.pv;
         precise vec2 st = tex.st + tex.jacobian * step;
-        float h = heightOfFunction(p, st);
+        float h = heightOfFunction(p, kHasTexCoords ? st : vec2(0));
         if (i == 0u) s.h = h;
         else s.gradient += along * h * (i < 3u ? vec2(0.5 / d.x, 0.0) : vec2(0.0, 0.5 / d.y));
     }

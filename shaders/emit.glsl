@@ -18,7 +18,8 @@ vec4 emitVertex(uint face, vec2 uv, SampleLocation location, uint rate) {
     vGradientS = kHasTexGradients ? worldGradient(s.gradientS) : vec4(0);
     vGradientT = kHasTexGradients ? worldGradient(s.gradientT) : vec4(0);
 #ifdef RELIEF_HEIGHT_FUNCTION
-    vRest = s.p;
+    vRest = s.rest;
+    vRestGradient = worldGradients(s.restGradient);
 #endif
     vFace = kPass == kPassLayers ? face : cageFaceOf(face);
     vRate = rate;

@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "inputs.glsl"
 #include "octahedral.glsl"
+#include "raster_samples.glsl"
 #include "rounding.glsl"
 
 // Light on the samples that surface.frag left: once per pixel inside the surface, once per sample where its depth jumps.
@@ -10,6 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = kIdShow) const uint kShow = kShowShaded;
 layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
 layout(constant_id = kIdReadsSampleBuffers) const bool kReadsSampleBuffers = false; // else images
+layout(constant_id = kIdHasSampleColors) const bool kHasSampleColors = false;       // else all are the material's
 
 layout(set = 0, binding = kBindEnvironment) uniform sampler2D environmentMap; // equirectangular
 layout(set = 0, binding = kBindShadow) uniform sampler2D shadowMap;           // reversed depth from the key light
@@ -18,6 +20,8 @@ layout(set = 0, binding = kBindNormals) uniform sampler2DMS normalSamples;
 layout(set = 0, binding = kBindColors) uniform sampler2DMS colorSamples;
 layout(set = 0, binding = kBindInstances) uniform usampler2DMS instanceSamples; // kHasInstances
 RELIEF_TABLE(kBindSamples, uvec4, samplePair)
+RELIEF_TABLE(kBindSampleColors, uvec4, sampleColors)
+RELIEF_TABLE(kBindSampleInstances, uvec4, sampleInstances)
 RELIEF_TABLE(kBindShadowCodes, uint, shadowCode)
 
 const float kPi = 3.14159265;
@@ -115,20 +119,34 @@ struct Seen {
 };
 
 Seen seenAt(ivec2 at, int i) {
+    bool isLight = kShow == kShowShaded;
     if (kReadsSampleBuffers) {
-        uvec4 two = samplePair(2u * uint(at.y * inputs.view.pictureSize.x + at.x) + uint(i >> 1));
+        uint pixel = uint(at.y * inputs.view.pictureSize.x + at.x);
+        uvec4 two = samplePair(2u * pixel + uint(i >> 1));
         uvec2 one = (i & 1) == 0 ? two.xy : two.zw;
-        vec3 color = storedColor(kShow == kShowShaded ? inputs.material.albedo : vec3(0), kShow == kShowShaded);
-        return Seen(uintBitsToFloat(one.y), unpackNormal(one.x), colorOfStored(color, kShow == kShowShaded));
+        float depth = uintBitsToFloat(one.y);
+        vec3 stored = storedColor(inputs.material.albedo, isLight);
+        if (kHasSampleColors) { // those of raster_resolve.comp, in place of the numbers of triangles
+            two = sampleColors(2u * pixel + uint(i >> 1));
+            one = (i & 1) == 0 ? two.xy : two.zw;
+            stored = unpackColor(one.y);
+        }
+        return Seen(depth, unpackNormal(one.x), colorOfStored(stored, isLight));
     }
     return Seen(texelFetch(depthSamples, at, i).r, fromOctahedral(texelFetch(normalSamples, at, i).xy),
-                colorOfStored(texelFetch(colorSamples, at, i).rgb, kShow == kShowShaded));
+                colorOfStored(texelFetch(colorSamples, at, i).rgb, isLight));
+}
+
+// The number of the instance at a sample, of those that see one.
+uint instanceAt(ivec2 at, int i) {
+    if (kReadsSampleBuffers) return sampleInstances(uint(at.y * inputs.view.pictureSize.x + at.x))[i];
+    return texelFetch(instanceSamples, at, i).x;
 }
 
 // The material at a sample: that of the inputs where the picture has one instance alone.
 Material materialAt(ivec2 at, int i) {
     if (!kHasInstances) return inputs.material;
-    return inputs.targets.materials.at[texelFetch(instanceSamples, at, i).x];
+    return inputs.targets.materials.at[instanceAt(at, i)];
 }
 
 // No arrays here: indexing them would make compilers unroll the loops around all of shaded().
@@ -151,8 +169,8 @@ void main() {
         // 30 degrees from their mean each.
         bool isOneSurface = highest - lowest < 0.02 * highest && dot(normal, normal) > 12.0;
         if (kHasInstances) {
-            uint first = texelFetch(instanceSamples, at, 0).x;
-            for (int i = 1; i < 4; ++i) isOneSurface = isOneSurface && texelFetch(instanceSamples, at, i).x == first;
+            uint first = instanceAt(at, 0);
+            for (int i = 1; i < 4; ++i) isOneSurface = isOneSurface && instanceAt(at, i) == first;
         }
         int count = isOneSurface ? 1 : 4;
         float depth = 0.5 * (lowest + highest);

@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform PushBlock { MeshPush push; };
 
 RELIEF_TABLE(kBindMesh, vec4, meshAt)
 RELIEF_TABLE(kBindMeshTexCoords, vec2, meshTexCoords)
-RELIEF_TABLE(kBindMeshTexGradients, vec4, meshTexGradients)
+#include "mesh_gradients.glsl"
 
 layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
 layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false;
@@ -22,11 +22,7 @@ void main() {
     vNormal = worldNormal(meshAt(2 * gl_VertexIndex + 1).xyz);
     vTexCoord = vec4(kHasTexCoords && kWantsTexCoords ? meshTexCoords(gl_VertexIndex) : vec2(0), vec2(0));
     vHeight = vertex.w;
-    vGradientS = kHasTexGradients ? worldGradient(meshTexGradients(2 * gl_VertexIndex)) : vec4(0);
-    vGradientT = kHasTexGradients ? worldGradient(meshTexGradients(2 * gl_VertexIndex + 1)) : vec4(0);
-#ifdef RELIEF_HEIGHT_FUNCTION
-    vRest = vertex.xyz; // it is not displaced
-#endif
+    readGradients(uint(gl_VertexIndex));
     // A draw of one face carries its number; a whole mesh in one draw shows patches of 64 vertices instead.
     vFace = push.isOneFace != 0u ? cageFaceOf(push.face) : uint(gl_VertexIndex) / 64u;
     vRate = max(push.rate, 1u);

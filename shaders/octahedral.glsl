@@ -1,4 +1,7 @@
 // Cigolle et al. (2014), "Survey of Efficient Representations for Independent Unit Vectors".
+#ifndef RELIEF_OCTAHEDRAL_GLSL
+#define RELIEF_OCTAHEDRAL_GLSL
+
 vec2 octahedral(vec3 n) {
     vec2 p = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
     vec2 folded = (1.0 - abs(p.yx)) * vec2(p.x >= 0.0 ? 1.0 : -1.0, p.y >= 0.0 ? 1.0 : -1.0);
@@ -19,3 +22,4 @@ uint packNormal(vec3 n) {
 }
 
 vec3 unpackNormal(uint code) { return fromOctahedral(vec2(int(code << 16) >> 16, int(code) >> 16) / 32767.0); }
+#endif

@@ -6,6 +6,9 @@ vec3 worldNormal(vec3 normal) { return kIsPlaced ? inputs.view.normalToWorld * n
 // A gradient with a slope in w.
 vec4 worldGradient(vec4 gradient) { return vec4(worldNormal(gradient.xyz), gradient.w); }
 
+// A gradient of three functions, whose columns are their derivatives along the axes.
+mat3 worldGradients(mat3 gradients) { return kIsPlaced ? gradients * transpose(inputs.view.normalToWorld) : gradients; }
+
 // The crack picture: vertices move aside when the parity of their position's bits is odd. Two samples that are meant to
 // be one and differ in the last bit then separate visibly.
 vec3 splitByParity(vec3 q) {

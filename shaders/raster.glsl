@@ -13,6 +13,7 @@
 #include "inputs.glsl"
 #include "octahedral.glsl"
 #include "project.glsl"
+#include "raster_samples.glsl"
 
 layout(push_constant, scalar) uniform PushBlock { RasterPush push; };
 
@@ -23,8 +24,8 @@ RELIEF_TABLE(kBindScreen, uvec4, screenAt)
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Longs { uint64_t at[]; };
 
 layout(constant_id = kIdShow) const uint kShow = kShowShaded;
+layout(constant_id = kIdWritesIds) const bool kWritesIds = false; // samples get numbers of triangles instead of normals
 
-const uint kMostSamples = 4u;
 // Per pixel. No constants: Mesa 22.3 cannot compile those that follow from a specialization constant.
 uint sampleCount() { return kPass == kPassSurface ? kMostSamples : 1u; }
 
@@ -42,14 +43,14 @@ const int kBehind = 1; // nearer than the near plane
 const int kAside = 2;  // farther from the middle of the picture than numbers of a pixel are precise
 const float kMostPixels = 1048576.0;
 
+bool isBehind(vec4 clip) { return !(clip.w > 0.0 && clip.z <= clip.w); }
+
+// A vertex that is not behind.
 ScreenVertex toScreen(vec4 clip) {
     precise float perW = 1.0 / clip.w;
     precise vec2 halfSize = 0.5 * vec2(push.size);
     precise vec2 pixel = clip.xy * perW * halfSize + halfSize;
-    ScreenVertex v = ScreenVertex(ivec2(kUnplaced, kBehind), 0.0, 0u);
-    if (!(clip.w > 0.0 && clip.z <= clip.w)) return v;
-    v.depth = clip.z * perW;
-    v.p.y = kAside;
+    ScreenVertex v = ScreenVertex(ivec2(kUnplaced, kAside), clip.z * perW, 0u);
     if (all(lessThan(abs(pixel), vec2(kMostPixels)))) v.p = ivec2(roundEven(256.0 * pixel));
     return v;
 }
@@ -59,8 +60,8 @@ float perDistance(float depth) { return kPass == kPassSurface ? depth - push.dep
 
 // --- samples of a pixel -----------------------------------------------------------------------------------------------
 
-// Where sample s lies in its pixel, in 1/256 of a pixel: the standard places of four samples (Vulkan, standardSampleLocations).
-ivec2 placeOf(uint s) { return sampleCount() == 1u ? ivec2(128) : ivec2(0xA020E060u >> (8u * s) & 255u, 32u + 64u * s); }
+// Where sample s lies in its pixel, in 1/256 of a pixel: one alone in the middle.
+ivec2 placeOf(uint s) { return sampleCount() == 1u ? ivec2(128) : placeInPixel(s); }
 int firstPlace() { return sampleCount() == 1u ? 128 : 32; }
 int lastPlace() { return 256 - firstPlace(); }
 
@@ -79,7 +80,7 @@ struct Attributes {
 Attributes attributesOf(ScreenVertex a, ScreenVertex b, ScreenVertex c, bool isFront) {
     Attributes all;
     all.depths = vec3(a.depth, b.depth, c.depth);
-    if (kPass != kPassSurface) return all;
+    if (kPass != kPassSurface || kWritesIds) return all;
     float side = isFront || kShow == kShowNormal ? 1.0 : -1.0;
     all.normals[0] = side * perDistance(a.depth) * unpackNormal(a.normal);
     all.normals[1] = side * perDistance(b.depth) * unpackNormal(b.normal);
@@ -87,9 +88,9 @@ Attributes attributesOf(ScreenVertex a, ScreenVertex b, ScreenVertex c, bool isF
     return all;
 }
 
-// Writes a sample at the barycentric coordinates `weights`. The nearest of all that arrive stays; of two at one depth that with
+// Writes a sample of a triangle at the barycentric coordinates `weights`. The nearest of all that arrive stays; of two at one depth that with
 // the larger number, whichever comes first.
-void store(ivec2 pixel, uint s, vec3 weights, Attributes all, bool isFront) {
+void store(ivec2 pixel, uint s, vec3 weights, Attributes all, uint triangle, bool isFront) {
     uint at = uint(pixel.y * push.size.x + pixel.x);
     if (kPass == kPassCracks) {
         atomicAdd(inputs.targets.crossings.at[at], isFront ? 1u : 0xffffffffu);
@@ -101,8 +102,9 @@ void store(ivec2 pixel, uint s, vec3 weights, Attributes all, bool isFront) {
         atomicMax(inputs.targets.shadow.at[at], uint(floor(kShadowCodes * clamp(depth, 0.0, 1.0) + 0.5)));
         return;
     }
-    vec3 n = weights.x * all.normals[0] + weights.y * all.normals[1] + weights.z * all.normals[2];
-    uvec2 words = uvec2(packNormal(n), floatBitsToUint(max(depth, 0.0)));
+    uint low = (push.firstId + triangle) << 1 | (isFront ? 1u : 0u);
+    if (!kWritesIds) low = packNormal(weights.x * all.normals[0] + weights.y * all.normals[1] + weights.z * all.normals[2]);
+    uvec2 words = uvec2(low, floatBitsToUint(max(depth, 0.0)));
     atomicMax(Longs(inputs.targets.samples).at[kMostSamples * at + s], packUint2x32(words));
 }
 #endif

@@ -65,7 +65,7 @@ int64_t edgeAt(ivec2 a, ivec2 b, ivec2 p) {
     return int64_t(b.x - a.x) * int64_t(p.y - a.y) - int64_t(b.y - a.y) * int64_t(p.x - a.x);
 }
 
-void drawInTile(ScreenVertex a, ScreenVertex b, ScreenVertex c, ivec2 tileFirst, ivec2 tileLast) {
+void drawInTile(ScreenVertex a, ScreenVertex b, ScreenVertex c, uint triangle, ivec2 tileFirst, ivec2 tileLast) {
     if (min(a.p.x, min(b.p.x, c.p.x)) == kUnplaced) return; // not a number
     int64_t area = edgeAt(a.p, b.p, c.p);
     if (area == 0l) return;
@@ -88,7 +88,7 @@ void drawInTile(ScreenVertex a, ScreenVertex b, ScreenVertex c, ivec2 tileFirst,
             ivec2 p = 256 * pixel + placeOf(s);
             int64_t ea = edgeAt(b.p, c.p, p), eb = edgeAt(c.p, a.p, p), ec = edgeAt(a.p, b.p, p);
             if (ea + int64_t(bias.x) < 0l || eb + int64_t(bias.y) < 0l || ec + int64_t(bias.z) < 0l) continue;
-            store(pixel, s, vec3(float(ea), float(eb), float(ec)) * perArea, all, isFront);
+            store(pixel, s, vec3(float(ea), float(eb), float(ec)) * perArea, all, triangle, isFront);
         }
     }
 }
@@ -107,6 +107,6 @@ void main() {
         }
         cornerCount = 3u;
         for (uint plane = 0u; plane < kPlanes; ++plane) cutBy(plane);
-        for (uint k = 2u; k < cornerCount; ++k) drawInTile(screenCorner(0u), screenCorner(k - 1u), screenCorner(k), first, last);
+        for (uint k = 2u; k < cornerCount; ++k) drawInTile(screenCorner(0u), screenCorner(k - 1u), screenCorner(k), triangle, first, last);
     }
 }

@@ -52,12 +52,12 @@ void main() {
     SmallTriangle t;
     ivec2 low = min(a, min(b, c)), high = max(a, max(b, c));
     bool isUnplaced = low.x == kUnplaced;
-    bool isBehind = max(a.x, max(b.x, c.x)) == kUnplaced && max(a.y, max(b.y, c.y)) == kBehind;
+    bool areBehind = max(a.x, max(b.x, c.x)) == kUnplaced && max(a.y, max(b.y, c.y)) == kBehind;
     t.first = max((low + (255 - lastPlace())) >> 8, ivec2(0));
     t.last = min((high - firstPlace()) >> 8, push.size - 1);
     bool isInView = all(lessThanEqual(t.first, t.last));
     ivec2 size = high - low; // wraps where a corner is unplaced
-    bool isLarge = isUnplaced ? !isBehind : isInView && max(size.x, size.y) > 256 * kMostPixelsAcross;
+    bool isLarge = isUnplaced ? !areBehind : isInView && max(size.x, size.y) > 256 * kMostPixelsAcross;
     bool isDrawn = isInView && !isLarge && !isUnplaced;
 
     // Edges in the order that makes E positive inside.
@@ -93,7 +93,7 @@ void main() {
             ivec2 inBlock = ivec2(bit / sampleCount() % uint(kBlock.x), bit / (sampleCount() * uint(kBlock.x)));
             uint s = bit % sampleCount();
             ivec3 e = edgesAt(t, 256 * (pixel + inBlock) + placeOf(s)) - t.bias;
-            store(t.first + pixel + inBlock, s, vec3(e) * perArea, all, isFront);
+            store(t.first + pixel + inBlock, s, vec3(e) * perArea, all, triangle, isFront);
         }
         if (++block.x == blocks.x) block = ivec2(0, block.y + 1);
     }

@@ -10,6 +10,7 @@ void main() {
     if (vertex >= push.count) return;
     precise vec4 clip = project(meshAt(2u * vertex).xyz);
     ScreenVertex v = toScreen(clip);
+    if (isBehind(clip)) v.p = ivec2(kUnplaced, kBehind);
     if (kPass == kPassSurface) v.normal = packNormal(worldNormal(meshAt(2u * vertex + 1u).xyz));
     inputs.targets.screen.at[vertex] = uvec4(v.p, floatBitsToUint(v.depth), v.normal);
 }

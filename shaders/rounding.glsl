@@ -1,6 +1,8 @@
 // How numbers are rounded before they are stored in formats of fewer bits. Drivers convert to those formats each in its own
 // way, some with approximate instructions of the processor, so the same picture would differ from one machine to the next.
 // Rounded here to what the format holds, a number has nothing left that a driver could round.
+#ifndef RELIEF_ROUNDING_GLSL
+#define RELIEF_ROUNDING_GLSL
 
 // 11 significant bits, halves away from zero: a half float (magnitudes of 6e-5 to 65504).
 vec2 roundToHalf(vec2 x) { return uintBitsToFloat((floatBitsToUint(x) + 0x1000u) & 0xffffe000u); }
@@ -16,3 +18,4 @@ vec3 storedColor(vec3 color, bool isLight) {
     return floor(kColorCodes * (isLight ? sqrt(c) : c) + 0.5) / kColorCodes;
 }
 vec3 colorOfStored(vec3 stored, bool isLight) { return isLight ? stored * stored : stored; }
+#endif

@@ -4,6 +4,8 @@
 
 layout(constant_id = kIdHasAlbedoMap) const bool kHasAlbedoMap = false;
 
+#include "lookup.glsl"
+
 layout(set = 0, binding = kBindAlbedo) uniform sampler2D albedoMap;
 
 // The colors of --show are whole codes of 8 bits, made by whole numbers: faces of one color have no value that a device could
@@ -30,7 +32,7 @@ vec3 faceColor(uint face) {
 
 vec3 albedo() {
     vec3 c = inputs.material.albedo;
-    return kHasAlbedoMap ? c * texture(albedoMap, vec2(vTexCoord.x, 1.0 - vTexCoord.y)).rgb : c;
+    return kHasAlbedoMap ? c * lookUp(albedoMap, 0.0).rgb : c;
 }
 
 vec3 techniqueColor() {

@@ -35,12 +35,15 @@ RELIEF_CONSTANT uint kBindColors = 20u;
 RELIEF_CONSTANT uint kBindInstances = 21u;
 RELIEF_CONSTANT uint kBindSlopes = 22u;           // sampled image: (h_s, h_t) / ModelTables::slopeUnit
 RELIEF_CONSTANT uint kBindNormalMap = 23u;        // sampled image: unit normals, y along t
-RELIEF_CONSTANT uint kBindMeshTexGradients = 24u; // table: two per vertex of a mesh, see varyings.glsl
+RELIEF_CONSTANT uint kBindMeshTexGradients = 24u; // table: kGradientTexels or more per vertex of a mesh
 RELIEF_CONSTANT uint kBindMeshIndices = 25u;      // table: three per triangle of a mesh
 RELIEF_CONSTANT uint kBindScreen = 26u;           // table: vertices of a mesh on the screen, see shaders/raster.glsl
 RELIEF_CONSTANT uint kBindSamples = 27u;     // table: two samples of a picture per element: normal and depth of each
 RELIEF_CONSTANT uint kBindShadowCodes = 28u; // table: depths from the key light, kShadowCodes
-RELIEF_CONSTANT uint kBindCount = 29u;
+RELIEF_CONSTANT uint kBindSampleColors = 29u;     // table: two samples per element: normal and colour of each
+RELIEF_CONSTANT uint kBindSampleInstances = 30u;  // table: four numbers of instances per pixel
+RELIEF_CONSTANT uint kBindFaceTriangles = 31u;    // table: first triangle and rate of each face of a diced mesh
+RELIEF_CONSTANT uint kBindCount = 32u;
 
 #ifdef __cplusplus
 } // namespace relief

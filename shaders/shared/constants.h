@@ -35,7 +35,9 @@ RELIEF_CONSTANT uint kIdNormalMap = 22u;       // kNormalMap...
 RELIEF_CONSTANT uint kIdHeightFunction = 23u;  // number of a height function, for keys of pipelines
 RELIEF_CONSTANT uint kIdReadsRest = 24u; // heights depend on the rest pose, and it is another than that of the frame
 RELIEF_CONSTANT uint kIdReadsSampleBuffers = 25u; // light: samples are those of raster_*.comp
-RELIEF_CONSTANT uint kIdCount = 26u;
+RELIEF_CONSTANT uint kIdWritesIds = 26u;          // raster: samples are numbers of triangles, for raster_resolve.comp
+RELIEF_CONSTANT uint kIdHasSampleColors = 27u;    // light: samples in buffers have colours of their own
+RELIEF_CONSTANT uint kIdCount = 28u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

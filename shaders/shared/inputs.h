@@ -102,6 +102,8 @@ struct Targets {
     RELIEF_ADDRESS(Materials) materials;  // light.comp with kHasInstances: one per instance
     RELIEF_ADDRESS(WordQuads) screen;     // as kBindScreen
     RELIEF_ADDRESS(WordPairs) samples;    // as kBindSamples
+    RELIEF_ADDRESS(WordPairs) sampleColors; // as kBindSampleColors
+    RELIEF_ADDRESS(Words) sampleInstances; // as kBindSampleInstances
     RELIEF_ADDRESS(Words) shadow;         // as kBindShadowCodes
     RELIEF_ADDRESS(Words) crossings;      // kPassCracks: front faces less back faces per pixel
     RELIEF_ADDRESS(Words) largeTriangles; // kLarge...
@@ -119,7 +121,7 @@ struct PassInputs {
 #ifdef __cplusplus
 static_assert(sizeof(ModelTables) == 18 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
 static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16);
-static_assert(sizeof(Material) == 20 && sizeof(Targets) == 16 * 8);
+static_assert(sizeof(Material) == 20 && sizeof(Targets) == 18 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));
 } // namespace relief::pass
 

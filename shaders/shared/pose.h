@@ -16,7 +16,8 @@ RELIEF_CONSTANT uint kPoseInfluences = 3u; // and their weights
 RELIEF_CONSTANT uint kPosePoints = 4u;     // posed points, set after set: cage points, then stencil rows
 RELIEF_CONSTANT uint kPoseWords = 5u;      // of stencils: first entry of each block and one more, targets, entries
 RELIEF_CONSTANT uint kPoseWeights = 6u;    // of stencils
-RELIEF_CONSTANT uint kPoseBindCount = 7u;
+RELIEF_CONSTANT uint kPoseGradients = 7u;  // pose_mesh.comp: kBindMeshTexGradients of the mesh at rest
+RELIEF_CONSTANT uint kPoseBindCount = 8u;
 
 // Stencils in blocks of sixteen rows over one list of points (entries) that serves all sixteen: neighbouring rows use
 // nearly the same points. Entries come in eights; what a row does not use has weight 0. Blocks with as many entries lie
@@ -41,11 +42,14 @@ struct PosePush {
     uint firstEntry;
     uint influenceCount; // joints per point
     uint morphCount;
-    uint isRigged; // 1: the upload is morph weights and joints
+    uint isRigged;                    // 1: the upload is morph weights and joints
+    RELIEF_ADDRESS(Points) gradients; // pose_mesh.comp: kBindMeshTexGradients
+    uint gradientTexels;              // of them per vertex, or 0
+    uint unused;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(PosePush) == 48);
+static_assert(sizeof(PosePush) == 64);
 } // namespace relief
 #endif
 #endif

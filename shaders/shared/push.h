@@ -44,6 +44,8 @@ struct RasterPush {
     uint first;            // number of the dispatch's first vertex or triangle
     uint count;            // of all dispatches
     float depthAtInfinity; // of the projection, below 0: depth = depthAtInfinity + c / w
+    uint firstId;          // number of the mesh's first triangle, among those of all instances
+    uint faceCount;        // raster_resolve.comp: of a diced mesh
 };
 
 // sample.comp
@@ -53,7 +55,7 @@ struct SamplePush {
 
 #ifdef __cplusplus
 static_assert(sizeof(GridPush) == 12 && sizeof(MeshPush) == 12 && sizeof(DicePush) == 8 && sizeof(SamplePush) == 4 &&
-              sizeof(DicedFacePush) == 120 && sizeof(RasterPush) == 20);
+              sizeof(DicedFacePush) == 120 && sizeof(RasterPush) == 28);
 
 // Bytes that every pipeline's layout reserves: what the largest block takes. Vulkan promises 128.
 inline constexpr uint kPushBytes = 120;

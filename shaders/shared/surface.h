@@ -42,6 +42,11 @@ RELIEF_CONSTANT uint kPatchGregoryTriangle = 10u;
 RELIEF_CONSTANT uint kOnBoundary = 1u; // an edge of one drawn face alone, or an end of such an edge
 RELIEF_CONSTANT uint kOnSeam = 2u;     // an edge whose faces have texture coordinates of their own
 
+// Texels of kBindMeshTexGradients per vertex: the gradients of s and of t; where fragments evaluate a height function,
+// then also the columns of vRestGradient with vRest in their w (shaders/varyings.glsl).
+RELIEF_CONSTANT uint kGradientTexels = 2u;
+RELIEF_CONSTANT uint kRestGradientTexels = 5u;
+
 // Control points of a patch.
 RELIEF_SHARED_FUNCTION uint patchSize(uint type) {
     return type == kPatchRegular           ? 16u

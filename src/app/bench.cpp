@@ -82,6 +82,11 @@ Results measure(const BenchArgs& args) {
 }
 
 void checkUsage(const BenchArgs& args) {
+    if (!args.object.height.function.empty())
+        fail(Failure::usage,
+             "--height-function {}: what is measured is a map, its formats and its bytes, and a function has none of "
+             "them; relief render --json prints the times of a picture with one",
+             args.object.height.function);
     if (args.object.cage.empty() != args.object.height.path.empty())
         fail(Failure::usage, "--cage and --height go together: displacement is what is measured");
     if (!args.from.empty() && !args.suites.empty()) fail(Failure::usage, "--from reads results: it measures no suite");
@@ -144,6 +149,7 @@ Run addBench(CLI::App& app) {
     app.add_flag("--quick", args->isQuick, "small scenes, few rounds: half a minute, for a first look");
     app.add_option("--cage", args->object.cage, "a cage of your own (.obj), with its --height")->option_text("CAGE");
     addSurfaceOptions(app, args->object);
+    addHeightFunction(app, args->object.height);
     // Where results go, and how the run behaves.
     addFiles(app, *args);
     addDevice(app, args->device);

@@ -166,8 +166,8 @@ DrawnFrame FrameMaker::draw(int frame) {
         drawn.poseMs = poser_->stats().milliseconds;
     }
     if (meshPoser_) posePolygons(frame, drawn);
-    if (auto* surface = std::get_if<SurfaceModel>(model_.get()))
-        surface->setTime(toSeconds(frame, args_.scene.object.motion), toSeconds(frame - 1, args_.scene.object.motion));
+    const MotionDesc& motion = args_.scene.object.motion;
+    std::visit([&](auto& model) { model.setTime(toSeconds(frame, motion), toSeconds(frame - 1, motion)); }, *model_);
     const Material material = makeMaterial(args_.scene.object.material, loaded_.object.textureColor);
     RenderOptions options = optionsAt(frame);
     drawn.picture = drawPicture(*renderer_, Instance(*model_, material), options, args_.picture, *device_);

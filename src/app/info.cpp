@@ -61,14 +61,8 @@ json describeCage(const std::string& path, const std::optional<Distance>& weld, 
 double toFraction(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// How far the heights of the two faces along the cage's edges differ.
-json describeSeams(ObjectDesc desc, const std::string& cage, bool isQuiet) {
-    desc.cage = cage;
-    const LoadedObject object = load(desc, CageState::posed, makeWarn(isQuiet));
-    const ReferenceSurface reference(object.cage, object.options);
-    const SeamReport seams = reportSeams(object.surface, reference, *object.height);
-    const double unit = object.coordinates().unit, displacementBound = object.height->heightBound();
-    json result{{"map", desc.height.path},
-                {"displacement_bound", unit * displacementBound},
+json seamsToJson(const SeamReport& seams, double displacementBound, double unit) {
+    json result{{"displacement_bound", unit * displacementBound},
                 {"map_seam_edges", seams.seamEdgeCount},
                 {"seam_disagreement_max", unit * seams.max},
                 {"seam_disagreement_mean", unit * seams.mean},
@@ -76,6 +70,27 @@ json describeSeams(ObjectDesc desc, const std::string& cage, bool isQuiet) {
                 {"seam_mean_of_displacement_bound", toFraction(seams.mean, displacementBound)}};
     if (seams.max > 0)
         result["seam_disagreement_at"] = {{"face", seams.worst.face}, {"u", seams.worst.uv.x}, {"v", seams.worst.uv.y}};
+    return result;
+}
+
+/// What a map, or a function at the time 0, makes of a cage's surface.
+json describeHeights(ObjectDesc desc, const std::string& cage, bool isQuiet) {
+    desc.cage = cage;
+    const Warn warn = makeWarn(isQuiet);
+    LoadedObject object = load(desc, CageState::posed, warn);
+    const ReferenceSurface reference(object.cage, object.options);
+    const double unit = object.coordinates().unit;
+    json result;
+    if (object.function) {
+        Device device;
+        measureFunction(device, object, desc.height, {{object.time}}, warn);
+        FunctionReference function(device, *object.function, reference, object.time);
+        result = seamsToJson(reportSeams(object.surface, reference, function), object.function->bound, unit);
+        result["height_function"] = desc.height.function;
+        return result;
+    }
+    result = seamsToJson(reportSeams(object.surface, reference, *object.height), object.height->heightBound(), unit);
+    result["map"] = desc.height.path;
     return result;
 }
 
@@ -198,22 +213,26 @@ void print(const json& object) {
     }
 }
 
+bool hasHeights(const InfoArgs& args) {
+    return !args.object.height.path.empty() || !args.object.height.function.empty();
+}
+
 void checkUsage(const InfoArgs& args) {
     if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info needs files, or --devices");
-    const std::string& map = args.object.height.path;
-    if (!map.empty() && std::ranges::count_if(args.files, isCage) != 1)
-        fail(Failure::usage, "--height {}: name the one cage that the map is for", map);
+    const HeightDesc& height = args.object.height;
+    if (!hasHeights(args) || std::ranges::count_if(args.files, isCage) == 1) return;
+    if (!height.path.empty()) fail(Failure::usage, "--height {}: name the one cage that the map is for", height.path);
+    fail(Failure::usage, "--height-function {}: name the one cage that the function is for", height.function);
 }
 
 int info(const InfoArgs& args) {
     checkUsage(args);
-    const bool hasMap = !args.object.height.path.empty();
-    // With a map the cage is read a second time, and its warnings are printed then.
-    const Warn warn = makeWarn(args.isQuiet || hasMap);
+    // With heights the cage is read a second time, and its warnings are printed then.
+    const Warn warn = makeWarn(args.isQuiet || hasHeights(args));
     json all = json::array();
     for (const std::string& file : args.files) {
         all.push_back(isCage(file) ? describeCage(file, args.object.weld, warn) : describePicture(file));
-        if (isCage(file) && hasMap) all.back().update(describeSeams(args.object, file, args.isQuiet));
+        if (isCage(file) && hasHeights(args)) all.back().update(describeHeights(args.object, file, args.isQuiet));
     }
     if (args.listsDevices)
         for (json& device : describeDevices()) all.push_back(std::move(device));
@@ -238,16 +257,19 @@ Run addInfo(CLI::App& app) {
     app.add_option("files", args->files, "cages (.obj .gltf .glb), height maps and other pictures")
         ->option_text("FILE...");
     addSurfaceOptions(app, args->object);
+    addHeightFunction(app, args->object.height);
     app.add_flag("--devices", args->listsDevices,
                  "list the Vulkan devices of this machine: the default --path on each, and what each cannot do");
     app.add_flag("--json", args->isJson, "print JSON on stdout");
     app.add_flag("-q,--quiet", args->isQuiet, "print no warnings");
-    app.footer(
-        "With --height, the report of a cage says how far the heights on the two sides of its texture's seams differ.\n"
-        "examples:\n"
-        "  relief info cage.obj heights.exr\n"
-        "  relief info cage.obj --height heights.exr --scale 0.2\n"
-        "  relief info --devices");
+    app.footer("With --height or --height-function, the report of a cage says how far the heights on the two sides of "
+               "its edges\n"
+               "differ.\n"
+               "examples:\n"
+               "  relief info cage.obj heights.exr\n"
+               "  relief info cage.obj --height heights.exr --scale 0.2\n"
+               "  relief info cage.obj --height-function golf\n"
+               "  relief info --devices");
     return [args] { return info(*args); };
 }
 

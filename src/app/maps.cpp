@@ -140,9 +140,7 @@ void report(const HeightMapArgs& args, const IntegratedHeights& result, const St
 
 int makeHeightMapFile(const HeightMapArgs& args) {
     const SampleType sample = chooseSample(args.target, 0);
-    if (args.space != NormalSpace::tangent)
-        fail(Failure::usage, "{}: heights are made of normals in tangent space; those of an object have no one height",
-             args.source);
+    checkNormalSpace(args.space, args.source);
     checkOutput(args.target, {args.source});
     // What is said of the map is said once it has heights: an error is one line.
     std::vector<std::string> warnings;

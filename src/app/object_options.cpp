@@ -39,25 +39,6 @@ std::string listNames(const std::vector<std::string>& names) {
     return list;
 }
 
-void addHeightFunction(CLI::App& app, HeightDesc& height) {
-    CLI::Option* function =
-        app.add_option("--height-function", height.function,
-                       "heights by a function instead of a map: a file with float height(vec3 p, vec2 st, float t) in "
-                       "GLSL, or one of " +
-                           listNames(listHeightFunctions()) +
-                           "; p is the point of the smooth surface at rest in cage units, st its texture coordinates, "
-                           "t the time in seconds");
-    for (const char* ofMaps : {"--height", "--channel", "--wrap", "--map-format"})
-        function->excludes(app.get_option(ofMaps));
-    listIn("height", "FILE", function);
-    listIn("height", "X",
-           app.add_option("--height-bound", height.functionBound,
-                          "largest absolute value that the function returns (default: its const float kBound, else it "
-                          "is measured)")
-               ->check(numberIn(0, 1e12))
-               ->needs(function));
-}
-
 void addMotion(CLI::App& app, MotionDesc& motion) {
     const char* group = "pose";
     // Where positions come from: a cache or a skin, and deformers after either.
@@ -116,6 +97,25 @@ void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
                ->check(CLI::Range(0, 10)));
     addWeld(app, object.weld);
     addHeights(app, object.height);
+}
+
+void addHeightFunction(CLI::App& app, HeightDesc& height) {
+    CLI::Option* function =
+        app.add_option("--height-function", height.function,
+                       "heights by a function instead of a map: a file with float height(vec3 p, vec2 st, float t) in "
+                       "GLSL, or one of " +
+                           listNames(listHeightFunctions()) +
+                           "; p is the point of the smooth surface at rest in cage units, st its texture coordinates, "
+                           "t the time in seconds");
+    for (const char* ofMaps : {"--height", "--channel", "--wrap", "--map-format"})
+        function->excludes(app.get_option(ofMaps));
+    listIn("height", "FILE", function);
+    listIn("height", "X",
+           app.add_option("--height-bound", height.functionBound,
+                          "largest absolute value that the function returns (default: its const float kBound, else it "
+                          "is measured)")
+               ->check(numberIn(0, 1e12))
+               ->needs(function));
 }
 
 void addHeightValues(CLI::App& app, HeightDesc& height) {

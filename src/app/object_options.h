@@ -11,6 +11,8 @@ namespace relief::app {
 void addObject(CLI::App& app, ObjectDesc& object);
 /// Adds the options of a surface and its height map alone.
 void addSurfaceOptions(CLI::App& app, ObjectDesc& object);
+/// Adds --height-function and --height-bound, for verbs that have addSurfaceOptions.
+void addHeightFunction(CLI::App& app, HeightDesc& height);
 /// Adds --scale, --mid and --channel: how the values of a height map are read.
 void addHeightValues(CLI::App& app, HeightDesc& height);
 /// Adds --time, for verbs that take one pose of an object that moves.

@@ -99,6 +99,16 @@ std::vector<dvec3> outlineOf(LoadedObject& object, bool isCompared) {
     return points;
 }
 
+/// Bytes of heights on the device: the map's words, and its slopes where they bend normals.
+std::uint64_t mapBytesOf(const Model& model) {
+    const auto* surface = std::get_if<SurfaceModel>(&model);
+    const std::uint64_t words = surface != nullptr && surface->height ? surface->height->words.buffer.bytes : 0;
+    const auto slopesOf = [](const auto& either) -> std::uint64_t {
+        return either.pictures.slopes ? either.pictures.slopes->byteCount : 0;
+    };
+    return words + std::visit(slopesOf, model);
+}
+
 /// Memory is freed as soon as it is not needed: the peak is that of the frame itself, not of what led to it.
 Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     // Loading a driver takes its time: it does so while files are read.
@@ -134,7 +144,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     Drawn drawn{.device = device.traits().name,
                 .mapFormat = object.height ? wordOf(kMapFormats, object.heightEncoding.format) : "",
                 .cageBytes = object.cage.byteCount(),
-                .mapBytes = surface != nullptr && surface->height ? surface->height->words.buffer.bytes : 0,
+                .mapBytes = mapBytesOf(model),
                 .deviceBytes = byteCountOf(model),
                 .loadSeconds = object.loadSeconds,
                 .surfaceSeconds = object.surfaceSeconds,
@@ -204,6 +214,15 @@ int render(const RenderArgs& args) {
     return 0;
 }
 
+/// Takes spaces off both ends of a word: lists are written with spaces after their commas.
+CLI::Validator trimmed() {
+    const auto trim = [](std::string& word) {
+        CLI::detail::trim(word);
+        return std::string();
+    };
+    return {trim, ""};
+}
+
 void addCompare(CLI::App& app, std::vector<Detail>& compared) {
     const std::vector<WordHelp> words = listWords(kDetails);
     const auto set = [&compared](const std::vector<std::string>& names) {
@@ -215,7 +234,7 @@ void addCompare(CLI::App& app, std::vector<Detail>& compared) {
     CLI::Option* option = app.add_option_function<std::vector<std::string>>(
         "--compare", set, "draw the view by each of these, side by side with their times; words as of --detail");
     option->excludes(app.get_option("--detail"));
-    listIn("height", "HOW,HOW", option->delimiter(',')->check(oneOf(words)));
+    listIn("height", "HOW,HOW", option->delimiter(',')->transform(trimmed())->check(oneOf(words)));
 }
 
 } // namespace

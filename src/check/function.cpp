@@ -22,7 +22,7 @@ FunctionReference::FunctionReference(Device& device, const FunctionHeights& heig
     : heights_(heights), rest_(rest), seconds_(seconds), evaluator_(device, *heights.function) {}
 
 FunctionPoint FunctionReference::pointAt(const dvec3& p, const dvec2& st) const {
-    return {.p = vec3(heights_.unit * p), .st = vec2(st), .t = float(seconds_)};
+    return {.p = vec3(heights_.unit * p), .st = rest_.hasTexCoords() ? vec2(st) : vec2(0), .t = float(seconds_)};
 }
 
 std::vector<double> FunctionReference::evaluate(std::span<const FunctionPoint> points) {

@@ -116,7 +116,7 @@ std::uint64_t levelBytes(MapFormat format, std::uint64_t width, std::uint64_t he
 }
 
 /// Appends a level; returns the largest difference between its texels and what a reader of the words finds.
-float appendBlocks(MapWords& to, const MapEncoding& encoding, const MapLevel& level) {
+float appendBlocks(MapWords& to, const MapEncoding& encoding, const MapLevel<float>& level) {
     const std::size_t first = to.words.size();
     const std::vector<std::uint8_t> blocks =
         first == 0 ? encoding.blocks : blocksOf(toUnit(encoding, level.texels), level.width, level.height);
@@ -126,7 +126,7 @@ float appendBlocks(MapWords& to, const MapEncoding& encoding, const MapLevel& le
     return largestDifference(level.texels, fromUnit(encoding, valuesOf(blocks, level.width, level.height)));
 }
 
-float appendTexels(MapWords& to, const MapEncoding& encoding, const MapLevel& level) {
+float appendTexels(MapWords& to, const MapEncoding& encoding, const MapLevel<float>& level) {
     const std::size_t first = to.words.size(), bits = bitsOf(encoding.format), perWord = 32 / bits;
     to.words.resize(first + (level.texels.size() + perWord - 1) / perWord, 0);
     float most = 0;
@@ -212,17 +212,17 @@ MapWords toWords(const HeightMap& decoded, const MapEncoding& encoding) {
     }
 
     words.words.reserve(mapBytes(encoding.format, decoded.width, decoded.height) / 4);
-    const auto append = [&](const MapLevel& level) {
+    const auto append = [&](const MapLevel<float>& level) {
         words.firsts.push_back(std::uint32_t(words.words.size()));
         return encoding.format == MapFormat::bc4 ? appendBlocks(words, encoding, level)
                                                  : appendTexels(words, encoding, level);
     };
-    MapLevel level{decoded.width, decoded.height, decoded.texels};
+    MapLevel<float> level{decoded.width, decoded.height, decoded.texels};
     append(level);
     std::vector<float> texels; // of the level, which mips are made of before they are rounded
     while ((level.width > 1 || level.height > 1) && words.firsts.size() < kMostMapLevels) {
         texels = halved(level);
-        level = {std::max(level.width / 2, 1), std::max(level.height / 2, 1), texels};
+        level = {level.halfWidth(), level.halfHeight(), texels};
         words.roundOff = std::max(words.roundOff, append(level));
     }
     RELIEF_CHECK(words.words.size() * 4 == mapBytes(encoding.format, decoded.width, decoded.height));

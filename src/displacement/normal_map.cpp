@@ -99,7 +99,8 @@ void checkChannels(int channels, const std::string& name) {
 }
 
 void warnOfFile(const ImageInfo& info, const std::string& path, const Warn& warn) {
-    if (!info.colorTag.empty())
+    // A gamma alone is written into every PNG by some programs, and says nothing of this one.
+    if (!info.colorTag.empty() && !info.colorTag.starts_with("gamma"))
         warn(fmt::format("{}: the file says that its numbers are colors ({}); normals are no colors, and are read as "
                          "they are stored",
                          path, info.colorTag));

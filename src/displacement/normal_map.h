@@ -56,7 +56,7 @@ NormalMap makeNormalMap(const Image& picture, const std::string& name, const Nor
                         const Warn& warn = warnOnStderr);
 
 /// Reads a normal map as raw data: no number is decoded as a color. Warns as makeNormalMap does, of a file that says
-/// that its numbers are sRGB, and of layers.
+/// that its numbers are sRGB or of a profile (not of a gamma alone, which many programs write), and of layers.
 /// Throws as readImage and makeNormalMap do.
 NormalMap loadNormalMap(const std::string& path, const NormalOptions& options, const Warn& warn = warnOnStderr);
 

@@ -6,32 +6,19 @@
 
 #include "displacement/displacement.h"
 #include "displacement/mips.h"
+#include "displacement/neighbours.h"
 
 namespace relief {
 
 namespace {
 
-/// The neighbour of a column or row outside of a level.
-int wrapped(int i, int size, Wrap wrap) {
-    return wrap == Wrap::repeat ? (i + size) % size : std::clamp(i, 0, size - 1);
-}
-
 /// (h_s, h_t) at every texel of a level by central differences over one texel, cage units per unit of s and t.
-std::vector<vec2> slopesOf(const MapLevel& level, double scale, Wrap wrap) {
-    const auto at = [&](int x, int y) {
-        return double(level.texels[std::size_t(y) * std::size_t(level.width) + std::size_t(x)]);
-    };
+std::vector<vec2> slopesOf(const MapLevel<float>& level, double scale, Wrap wrap) {
     std::vector<vec2> slopes;
     slopes.reserve(level.texels.size());
-    for (int y = 0; y < level.height; ++y) {
-        // t points up, rows go down.
-        const int above = wrapped(y - 1, level.height, wrap), below = wrapped(y + 1, level.height, wrap);
-        for (int x = 0; x < level.width; ++x) {
-            const int left = wrapped(x - 1, level.width, wrap), right = wrapped(x + 1, level.width, wrap);
-            slopes.emplace_back(0.5 * scale * level.width * (at(right, y) - at(left, y)),
-                                0.5 * scale * level.height * (at(x, above) - at(x, below)));
-        }
-    }
+    const dvec2 perUnit(0.5 * scale * level.width, 0.5 * scale * level.height);
+    eachDifference(level.width, level.height, level.texels, wrap,
+                   [&](const dvec2& difference) { slopes.emplace_back(perUnit * difference); });
     return slopes;
 }
 
@@ -39,7 +26,7 @@ std::vector<vec2> slopesOf(const MapLevel& level, double scale, Wrap wrap) {
 
 SlopeMap computeSlopes(const HeightMap& map) {
     SlopeMap result{.width = map.width, .height = map.height};
-    MapLevel level{map.width, map.height, map.texels};
+    MapLevel<float> level{map.width, map.height, map.texels};
     std::vector<float> texels; // of the level
     for (;;) {
         const std::vector<vec2> slopes = slopesOf(level, map.scale, map.wrap);
@@ -54,7 +41,7 @@ SlopeMap computeSlopes(const HeightMap& map) {
         ++result.levelCount;
         if (level.width == 1 && level.height == 1) return result;
         texels = halved(level);
-        level = {std::max(level.width / 2, 1), std::max(level.height / 2, 1), texels};
+        level = {level.halfWidth(), level.halfHeight(), texels};
     }
 }
 

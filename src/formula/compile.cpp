@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include "formula/sources.h"
+#include "formula/tokens.h"
 
 namespace relief {
 namespace {
@@ -97,22 +99,83 @@ std::string without(std::string text, std::string_view part) {
     return text;
 }
 
+std::string replaced(std::string text, std::string_view part, std::string_view by) {
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
+        text.replace(at, part.size(), by);
+    return text;
+}
+
+/// The compiler's words for signs, and its phrases that say nothing to an author.
+std::string inPlainWords(std::string message) {
+    constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+        {"LEFT_PAREN", "'('"},   {"RIGHT_PAREN", "')'"},
+        {"LEFT_BRACKET", "'['"}, {"RIGHT_BRACKET", "']'"},
+        {"LEFT_BRACE", "'{'"},   {"RIGHT_BRACE", "'}'"},
+        {"SEMICOLON", "';'"},    {"COMMA", "','"},
+        {"COLON", "':'"},        {"EQUAL", "'='"},
+        {"$end", "the end"},     {"'' : ", ""},
+        {":  ", ": "},           {"memory exhausted", "brackets are nested too deep"}};
+    for (const auto& [word, plain] : kWords) message = replaced(std::move(message), word, plain);
+    constexpr std::string_view kExtension = "required extension not requested";
+    if (const std::size_t at = message.find(kExtension); at != std::string::npos)
+        message = message.substr(0, at) + "needs an extension of GLSL, and a height function has none";
+    return message.substr(0, message.find_last_not_of(" :") + 1);
+}
+
+/// The line of a text where a word first stands as a whole; 1 where it does not.
+std::ptrdiff_t lineOf(std::string_view word, std::string_view text) {
+    for (const Token& token : readTokens(text))
+        if (token.text == word) return token.line;
+    return 1;
+}
+
+/// The line of the last #if or #elif before another line.
+int lineOfCondition(std::string_view text, int before) {
+    int line = 1;
+    for (const Token& token : readTokens(text))
+        if (token.isOfDirective && (token.text == "if" || token.text == "elif") && token.line < before)
+            line = token.line;
+    return line;
+}
+
+/// "Recursion detected:", and on the line below "f(f1; calling g(f1;".
+[[noreturn]] void failOfRecursion(const FunctionText& function, std::string_view log) {
+    constexpr std::string_view kCalling = " calling ";
+    const std::size_t calling = std::min(log.find(kCalling), log.size());
+    const std::size_t start = log.find_last_of(" \n\t", calling > 0 ? calling - 1 : 0) + 1;
+    const std::string_view called = log.substr(std::min(calling + kCalling.size(), log.size()));
+    const std::string from = without(std::string(log.substr(start, log.find('(', start) - start)), kFunctionPrefix);
+    const std::string to = without(std::string(called.substr(0, called.find('('))), kFunctionPrefix);
+    fail(Failure::input, "{}:{}: {} calls {}: there is no recursion in GLSL", function.name,
+         lineOf(from, function.text), from, from == to ? "itself" : to + ", which comes back to it");
+}
+
 /// One line of the compiler's log: the first error, at the function's own line where it lies there.
 [[noreturn]] void failToCompile(const FunctionText& function, const ShaderRequest& request, std::string_view log) {
     constexpr std::string_view kError = "ERROR: ";
+    if (log.find("Recursion detected") != std::string_view::npos) failOfRecursion(function, log);
     const std::size_t start = std::min(log.find(kError), log.size());
     const std::string line = without(std::string(log.substr(start, log.find('\n', start) - start)), kFunctionPrefix);
     const std::string own = fmt::format("{}{}:", kError, function.name);
-    if (line.starts_with(own))
-        fail(Failure::input, "{}", line.substr(kError.size(), line.find_last_not_of(' ') + 1 - kError.size()));
+    if (line.starts_with(own)) {
+        // A condition is evaluated once its line has been read: the compiler names the next one.
+        const std::string_view message = std::string_view(line).substr(own.size());
+        if (message.find("'preprocessor evaluation'") != std::string_view::npos)
+            fail(Failure::input, "{}:{}: the condition of this #if is no number", function.name,
+                 lineOfCondition(function.text, std::atoi(message.data())));
+        fail(Failure::input, "{}:{}", function.name, inPlainWords(std::string(message)));
+    }
     if (!request.file.empty()) fail(Failure::internal, "{} with {}: {}", request.file, function.name, line);
-    if (line.find("no matching overloaded function") != std::string::npos)
-        fail(Failure::input, "{}: the function height is not float height(vec3 p, vec2 st, float t)", function.name);
+    for (const char* mismatch :
+         {"no matching overloaded function", "cannot convert return value", "type does not match"})
+        if (line.find(mismatch) != std::string::npos)
+            fail(Failure::input, "{}:{}: the function height is not float height(vec3 p, vec2 st, float t)",
+                 function.name, lineOf("height", function.text));
     // What is left open shows behind the last line.
     const auto lines = 1 + std::count(function.text.begin(), function.text.end(), '\n');
     const std::size_t message = line.find(": ", kError.size());
     fail(Failure::input, "{}:{}: {}: is a brace or a semicolon missing before the end?", function.name, lines,
-         message == std::string::npos ? line : line.substr(message + 2));
+         inPlainWords(message == std::string::npos ? line : line.substr(message + 2)));
 }
 
 // --- SPIR-V
@@ -140,6 +203,30 @@ void forbidContraction(std::vector<std::uint32_t>& words) {
     }
     RELIEF_CHECK(firstDecoration > 0u);
     words.insert(words.begin() + std::ptrdiff_t(firstDecoration), added.begin(), added.end());
+}
+
+/// Largest array, or structure of arrays, in numbers: drivers compile larger ones for minutes.
+constexpr double kMostNumbers = 1 << 14;
+
+/// Numbers that the largest type takes.
+double largestType(const std::vector<std::uint32_t>& words) {
+    constexpr std::uint32_t kVector = 23, kMatrix = 24, kArray = 28, kStruct = 30, kConstant = 43;
+    std::map<std::uint32_t, double> sizes, constants;
+    const auto sizeOf = [&](std::uint32_t type) { return sizes.contains(type) ? sizes[type] : 1; };
+    double largest = 1;
+    for (std::size_t at = kHeaderWords; at < words.size(); at += words[at] >> 16) {
+        const std::uint32_t op = words[at] & 0xffffu, count = words[at] >> 16;
+        const std::uint32_t* operands = &words[at + 1];
+        double size = 0;
+        if (op == kConstant) constants[operands[1]] = operands[2];
+        if (op == kVector || op == kMatrix) size = operands[2] * sizeOf(operands[1]);
+        if (op == kArray) size = constants[operands[2]] * sizeOf(operands[1]);
+        for (std::uint32_t i = 1; op == kStruct && i + 1 < count; ++i) size += sizeOf(operands[i]);
+        if (size == 0) continue;
+        sizes[operands[0]] = size;
+        largest = std::max(largest, size);
+    }
+    return largest;
 }
 
 std::vector<std::uint32_t> compile(const FunctionText& function, const IsolatedText& isolated,
@@ -174,6 +261,10 @@ std::vector<std::uint32_t> compile(const FunctionText& function, const IsolatedT
     glslang::SpvOptions options;
     options.disableOptimizer = true;
     glslang::GlslangToSpv(*program.getIntermediate(language), words, &options);
+    if (request.file.empty() && largestType(words) > kMostNumbers)
+        fail(Failure::input,
+             "{}: it has an array of {:.3g} numbers, {} are the most: drivers would compile for minutes", function.name,
+             largestType(words), std::size_t(kMostNumbers));
     forbidContraction(words);
     return words;
 }

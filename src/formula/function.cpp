@@ -1,4 +1,5 @@
 #include <atomic>
+#include <filesystem>
 #include <map>
 #include <set>
 
@@ -45,6 +46,11 @@ std::vector<std::string> listHeightFunctions() {
 FunctionText readHeightFunction(const std::string& nameOrPath) {
     const ShaderSource* source = findShaderSource(fmt::format("{}{}{}", kBuiltInFolder, nameOrPath, kExtension));
     if (source != nullptr) return {nameOrPath, std::string(source->text)};
+    // A name without a folder and an extension is meant for a built-in one.
+    std::error_code ignored;
+    if (nameOrPath.find_first_of("./") == std::string::npos && !std::filesystem::exists(nameOrPath, ignored))
+        fail(Failure::file, "{}: no such file, and no height function that is built in; those are {}", nameOrPath,
+             fmt::join(listHeightFunctions(), ", "));
     FunctionText function{nameOrPath, readFile(nameOrPath, kMostFunctionBytes)};
     if (function.text.starts_with("\xef\xbb\xbf")) function.text.erase(0, 3); // a byte-order mark
     return function;

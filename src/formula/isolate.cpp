@@ -2,97 +2,24 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <map>
 #include <set>
 
+#include "formula/tokens.h"
+
 namespace relief {
 namespace {
-
-enum class TokenKind { space, word, number, sign };
-
-struct Token {
-    TokenKind kind = TokenKind::space;
-    std::string_view text;
-    int line = 1;
-    bool isOfDirective = false;
-};
-
-bool isWordLetter(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-
-/// Splits GLSL into tokens, which together are the text.
-class Lexer {
-public:
-    explicit Lexer(std::string_view text) : text_(text) {}
-
-    std::vector<Token> read() {
-        while (at_ < text_.size()) {
-            const char c = text_[at_];
-            if (at(0) == '/' && at(1) == '/') {
-                add(TokenKind::space, std::min(text_.find('\n', at_), text_.size()));
-            } else if (at(0) == '/' && at(1) == '*') {
-                const std::size_t end = text_.find("*/", at_ + 2);
-                add(TokenKind::space, end == std::string_view::npos ? text_.size() : end + 2);
-            } else if (std::isspace(static_cast<unsigned char>(c)) != 0) {
-                if (c == '\n' && !isContinued()) isDirective_ = false, isLineStart_ = true;
-                add(TokenKind::space, at_ + 1);
-            } else if (isDigit(c) || (c == '.' && isDigit(at(1)))) {
-                add(TokenKind::number, numberEnd());
-            } else if (isWordLetter(c)) {
-                add(TokenKind::word, wordEnd(at_));
-            } else {
-                isDirective_ = isDirective_ || (c == '#' && isLineStart_);
-                add(TokenKind::sign, at_ + 1);
-            }
-        }
-        return std::move(tokens_);
-    }
-
-private:
-    [[nodiscard]] char at(std::size_t offset) const { return at_ + offset < text_.size() ? text_[at_ + offset] : '\0'; }
-    [[nodiscard]] bool isContinued() const {
-        const std::size_t last = at_ > 0 && text_[at_ - 1] == '\r' ? 2 : 1;
-        return at_ >= last && text_[at_ - last] == '\\';
-    }
-    [[nodiscard]] std::size_t wordEnd(std::size_t end) const {
-        while (end < text_.size() && isWordLetter(text_[end])) ++end;
-        return end;
-    }
-    /// Exponents have signs, and suffixes are letters: what follows a number without a space belongs to it.
-    [[nodiscard]] std::size_t numberEnd() const {
-        const bool isHexadecimal = at(0) == '0' && (at(1) == 'x' || at(1) == 'X');
-        std::size_t end = at_;
-        const auto isSign = [&] {
-            return !isHexadecimal && (text_[end] == '+' || text_[end] == '-') &&
-                   (text_[end - 1] == 'e' || text_[end - 1] == 'E');
-        };
-        while (end < text_.size() && (isWordLetter(text_[end]) || text_[end] == '.' || isSign())) ++end;
-        return end;
-    }
-    void add(TokenKind kind, std::size_t end) {
-        const std::string_view part = text_.substr(at_, end - at_);
-        tokens_.push_back({kind, part, line_, isDirective_});
-        line_ += int(std::count(part.begin(), part.end(), '\n'));
-        isLineStart_ = isLineStart_ && kind == TokenKind::space;
-        at_ = end;
-    }
-
-    std::string_view text_;
-    std::size_t at_ = 0;
-    int line_ = 1;
-    bool isDirective_ = false, isLineStart_ = true;
-    std::vector<Token> tokens_;
-};
 
 constexpr int kMostElements = 1024; ///< of an array: drivers compile large ones for minutes
 
 constexpr std::array kAllowedDirectives = {"define", "undef", "if",    "ifdef", "ifndef",
                                            "elif",   "else",  "endif", "error"};
-constexpr std::array kRefusedWords = {"layout",    "uniform", "buffer",     "shared",  "main",
-                                      "attribute", "varying", "double",     "dvec2",   "dvec3",
-                                      "dvec4",     "discard", "subroutine", "barrier", "memoryBarrier"};
+constexpr std::array kRefusedWords = {"layout", "uniform", "buffer", "shared", "main", "attribute", "varying", "double",
+                                      "dvec2", "dvec3", "dvec4", "discard", "subroutine", "barrier", "memoryBarrier",
+                                      // Derivatives are of pixels, and surfaces are evaluated at points.
+                                      "dFdx", "dFdy", "fwidth", "dFdxFine", "dFdyFine", "fwidthFine", "dFdxCoarse",
+                                      "dFdyCoarse", "fwidthCoarse"};
 
 bool isOneOf(std::span<const char* const> words, std::string_view word) {
     return std::ranges::any_of(words, [&](const char* other) { return word == other; });
@@ -109,18 +36,21 @@ bool isSwizzle(std::string_view word) {
 class Isolator {
 public:
     explicit Isolator(const FunctionText& function)
-        : file_(function.name), tokens_(Lexer(function.text).read()), inserted_(tokens_.size() + 1) {
+        : file_(function.name), tokens_(readTokens(function.text)), inserted_(tokens_.size() + 1) {
         for (std::size_t i = 0; i < tokens_.size(); ++i)
             if (tokens_[i].kind != TokenKind::space) order_.push_back(i);
     }
 
     IsolatedText isolate() {
+        checkLetters();
         checkDirectives();
+        checkPairs(tokens_, file_);
         checkWords();
         checkArrays();
         findDeclarations();
         if (!functions_.contains("height"))
             fail(Failure::input, "{}: there is no function float height(vec3 p, vec2 st, float t)", file_);
+        checkExpansion(withoutSpace(), file_);
         countTurns();
         return {write(), names_.contains("kBound")};
     }
@@ -132,6 +62,31 @@ private:
         return i < order_.size() ? tokens_[order_[i]] : none;
     }
     [[nodiscard]] bool is(std::size_t i, std::string_view text) const { return token(i).text == text; }
+
+    [[nodiscard]] std::vector<Token> withoutSpace() const {
+        std::vector<Token> tokens;
+        for (const std::size_t i : order_) tokens.push_back(tokens_[i]);
+        return tokens;
+    }
+
+    /// Outside of comments and #error GLSL is ASCII.
+    void checkLetters() const {
+        const auto isOfLetter = [](const Token& t) { return t.kind == TokenKind::sign && (t.text[0] & '\x80') != 0; };
+        for (std::size_t i = 0; i < order_.size(); ++i) {
+            if (is(i, "#") && is(i + 1, "error"))
+                while (token(i + 1).isOfDirective) ++i;
+            if (!isOfLetter(token(i))) continue;
+            // The bytes of one letter, as far as they are there.
+            std::string bytes(token(i).text);
+            for (std::size_t k = i + 1; k < order_.size() && isOfLetter(token(k)) && (token(k).text[0] & '\x40') == 0;
+                 ++k)
+                bytes += token(k).text;
+            const auto first = static_cast<unsigned char>(bytes[0]);
+            const std::size_t expected = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : first >= 0xc0 ? 2 : 0;
+            fail(Failure::input, "{}:{}: {} is no letter of GLSL, which is written in ASCII", file_, token(i).line,
+                 bytes.size() == expected ? fmt::format("'{}'", bytes) : fmt::format("the byte {:#x}", first));
+        }
+    }
 
     void checkDirectives() const {
         for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -146,6 +101,8 @@ private:
     void checkWords() const {
         for (std::size_t i = 0; i < order_.size(); ++i) {
             const Token& t = token(i);
+            if (t.isOfDirective && is(i, "#") && is(i + 1, "#"))
+                fail(Failure::input, "{}:{}: a macro of a height function cannot have ##", file_, t.line);
             if (t.kind != TokenKind::word) continue;
             const bool isLoop = t.text == "for" || t.text == "while" || t.text == "do";
             if (t.isOfDirective && isLoop)

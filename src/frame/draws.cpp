@@ -63,6 +63,13 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
     drawn.bindings[kBindMeshIndices] = mesh.indices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
+    if (frame.technique.wantsFaces) {
+        std::vector<std::uint32_t> words;
+        for (std::size_t face = 0; face < mesh.faceRates.size(); ++face)
+            words.insert(words.end(), {mesh.firstTriangles[face], mesh.faceRates[face]});
+        drawn.faceTriangles = uploadWords(device, "triangles of faces", words);
+        drawn.bindings[kBindFaceTriangles] = drawn.faceTriangles.binding();
+    }
     stats.triangleCount += mesh.triangleCount;
     stats.vertexCount += mesh.sampleCount;
     stats.faceCount += drawn.surface->faces.size();

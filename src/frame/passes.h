@@ -27,13 +27,17 @@ inline constexpr std::uint64_t kSampleBytes = 32;
 
 /// What the compute rasterizer writes samples to, and what it needs meanwhile.
 struct SampleBuffers {
-    TexelBuffer samples; ///< four per pixel, two per element: normal and depth of each
-    TexelBuffer shadow;  ///< one word per texel of the shadow map
-    TexelBuffer screen;  ///< vertices of the largest mesh so far
-    Buffer large;        ///< triangles for raster_large.comp: as many as the largest mesh so far has
+    TexelBuffer samples;   ///< four per pixel, two per element: normal and depth of each
+    TexelBuffer shadow;    ///< one word per texel of the shadow map
+    TexelBuffer colors;    ///< four normals and colours per pixel; made when a picture first has ids
+    TexelBuffer instances; ///< four per pixel; made when a picture first has several
+    TexelBuffer screen;    ///< vertices of the largest mesh so far
+    Buffer large;          ///< triangles for raster_large.comp: as many as the largest mesh so far has
 };
 
 SampleBuffers makeSampleBuffers(Device& device, const RendererDesc& desc);
+/// As many bytes per pixel.
+TexelBuffer makeSampleTable(Device& device, const RendererDesc& desc, const char* name, std::uint64_t pixelBytes);
 
 /// Four halves per pixel, mapped.
 Buffer makePictureBuffer(Device& device, const RendererDesc& desc);

@@ -40,7 +40,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
 std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const {
     std::vector<Stage> stages;
     const auto add = [&](VkShaderStageFlagBits stage, const char* file, bool ofSurface) {
-        stages.push_back(ofSurface ? shaderStage(device, stage, file, *drawn.surface)
+        stages.push_back(ofSurface ? shaderStage(device, stage, file, drawn.function(), drawn.isTriangles())
                                    : shaderStage(device, stage, file));
     };
     if (drawn.surface != nullptr && frame.path == Path::dice && pass == DrawPass::layers) {
@@ -107,7 +107,8 @@ const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame) {
     return computePipeline("light.comp", nullptr,
                            {.show = frame.technique.constant,
                             .hasInstances = frame.hasInstances(),
-                            .readsSampleBuffers = frame.raster == Raster::compute});
+                            .readsSampleBuffers = frame.raster == Raster::compute,
+                            .hasSampleColors = frame.writesIds});
 }
 
 } // namespace relief

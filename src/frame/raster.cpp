@@ -12,9 +12,18 @@ constexpr double kMostPixelsPerTriangle = 10;
 
 constexpr std::uint32_t kRasterGroup = 64;
 
+/// Numbers of triangles that samples can hold besides the side that they are seen from.
+constexpr std::uint64_t kMostIds = std::uint64_t(1) << 31;
+
 struct MeshSize {
     std::uint32_t vertexCount, triangleCount;
 };
+
+template <typename Drawn>
+MeshSize meshSizeOf(const Drawn& drawn) {
+    if (drawn.mesh != nullptr) return {drawn.mesh->vertexCount, drawn.mesh->triangleCount};
+    return {drawn.diced.vertexCount, drawn.diced.triangleCount};
+}
 
 /// About how many pixels a box covers in the picture.
 double coveredPixels(const Bounds& bounds, const mat4& toClip, uvec2 size) {
@@ -35,8 +44,7 @@ std::uint32_t groupsOf(std::uint32_t count) { return (count + kRasterGroup - 1) 
 
 } // namespace
 
-// --- choice
-// -----------------------------------------------------------------------------------------------------------
+// --- choice ----------------------------------------------------------------------------------------------
 
 /// Why the compute rasterizer cannot make this picture; empty where it can.
 std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
@@ -44,14 +52,12 @@ std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
     if (std::uint64_t(desc.width) * std::uint64_t(desc.height) * kSampleBytes > largestTable(device, 16))
         return fmt::format("{} reads no table of all samples of {} x {} pixels", device.traits().name, desc.width,
                            desc.height);
-    const Show show = frame.technique.show;
-    if (show != Show::shaded && show != Show::normal) return "this --show is drawn by the device";
-    if (frame.hasInstances()) return "several instances are drawn by the device";
+    if (frame.technique.hasLines) return "it draws no lines";
+    if (frame.stats.triangleCount >= kMostIds)
+        return fmt::format("{} triangles are more than it tells apart", frame.stats.triangleCount);
     for (const Drawn& drawn : frame.drawn) {
         if (drawn.surface != nullptr && frame.path != Path::dice) return "it takes meshes: --path dice";
-        const ModelPictures& pictures = drawn.pictures();
-        if (pictures.albedo || pictures.slopes || pictures.normalMap || drawn.isBentByFunction())
-            return "textures are drawn by the device";
+        if (drawn.isBentByFunction()) return "the device's own rasterizer evaluates height functions per pixel";
         if (drawn.bindings[kBindMeshIndices].isEmpty()) return "the mesh is too large for it";
     }
     return "";
@@ -69,23 +75,48 @@ Raster Renderer::Parts::rasterOf(const Frame& frame) const {
     return areSmall ? Raster::compute : Raster::hardware;
 }
 
-// --- dispatches
-// -------------------------------------------------------------------------------------------------------
+// --- dispatches ------------------------------------------------------------------------------------------
 
-namespace {
-
-template <typename Drawn>
-MeshSize meshSizeOf(const Drawn& drawn) {
-    if (drawn.mesh != nullptr) return {drawn.mesh->vertexCount, drawn.mesh->triangleCount};
-    return {drawn.diced.vertexCount, drawn.diced.triangleCount};
+/// Samples hold the normal itself where all else is the same for all of them: the material alone decides their colour.
+bool Renderer::Parts::needsIds(const Frame& frame) const {
+    const Show show = frame.technique.show;
+    if (frame.hasInstances() || (show != Show::shaded && show != Show::normal)) return true;
+    const ModelPictures& pictures = frame.drawn.front().pictures();
+    return (pictures.albedo && frame.technique.wantsAlbedo) || pictures.slopes || pictures.normalMap;
 }
 
-} // namespace
-
-/// The buffers that hold samples, as what the passes write and light.comp reads.
+/// The buffers that hold samples, made when first needed.
 void Renderer::Parts::useBuffers(Frame& frame) {
-    // Those of one vertex and of one triangle are as large as the largest mesh needs.
     if (!buffers) buffers = makeSampleBuffers(device, desc);
+    frame.writesIds = needsIds(frame);
+    if (frame.writesIds && buffers->colors.buffer.bytes == 0)
+        buffers->colors = makeSampleTable(device, desc, "colors of samples", 32);
+    if (frame.hasInstances() && buffers->instances.buffer.bytes == 0)
+        buffers->instances = makeSampleTable(device, desc, "instances of samples", 16);
+    makeMeshBuffers(frame);
+
+    // What the passes write, and light.comp reads.
+    std::uint32_t firstId = 0;
+    for (Drawn& drawn : frame.drawn) {
+        drawn.firstId = firstId;
+        firstId += meshSizeOf(drawn).triangleCount;
+        drawn.bindings[kBindScreen] = buffers->screen.binding();
+        drawn.bindings[kBindSamples] = buffers->samples.binding();
+        drawn.inputs.targets.screen = buffers->screen.buffer.address;
+        drawn.inputs.targets.samples = buffers->samples.buffer.address;
+        drawn.inputs.targets.sampleColors = buffers->colors.buffer.address;
+        drawn.inputs.targets.sampleInstances = buffers->instances.buffer.address;
+        drawn.inputs.targets.shadow = buffers->shadow.buffer.address;
+        drawn.inputs.targets.largeTriangles = buffers->large.address;
+    }
+    frame.bindings[kBindSamples] = buffers->samples.binding();
+    frame.bindings[kBindShadowCodes] = buffers->shadow.binding();
+    if (frame.writesIds) frame.bindings[kBindSampleColors] = buffers->colors.binding();
+    if (frame.hasInstances()) frame.bindings[kBindSampleInstances] = buffers->instances.binding();
+}
+
+/// Vertices on the screen and the list of large triangles: for one instance after another, so that the largest decides.
+void Renderer::Parts::makeMeshBuffers(const Frame& frame) {
     MeshSize largest{0, 0};
     for (const Drawn& drawn : frame.drawn) {
         const MeshSize mesh = meshSizeOf(drawn);
@@ -103,15 +134,6 @@ void Renderer::Parts::useBuffers(Frame& frame) {
                                 .bytes = largeBytes,
                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT});
-    for (Drawn& drawn : frame.drawn) {
-        drawn.bindings[kBindScreen] = buffers->screen.binding();
-        drawn.inputs.targets.screen = buffers->screen.buffer.address;
-        drawn.inputs.targets.samples = buffers->samples.buffer.address;
-        drawn.inputs.targets.shadow = buffers->shadow.buffer.address;
-        drawn.inputs.targets.largeTriangles = buffers->large.address;
-    }
-    frame.bindings[kBindSamples] = buffers->samples.binding();
-    frame.bindings[kBindShadowCodes] = buffers->shadow.binding();
 }
 
 const Pipeline& Renderer::Parts::rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn,
@@ -119,6 +141,7 @@ const Pipeline& Renderer::Parts::rasterPipeline(const char* file, const Frame& f
     const DrawPassRow& row = rowOf(pass);
     ShaderConstants constants{.groupSize = kRasterGroup, .pass = row.constant};
     if (row.hasNormals) {
+        constants.writesIds = frame.writesIds;
         constants.show = frame.technique.constant;
         constants.isPlaced = drawn.inputs.view.normalToWorld != mat3(1);
     }
@@ -129,7 +152,8 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
                                     uvec2 targetSize) {
     const Camera& camera = frame.options.camera;
     RasterPush block{.size = ivec2(targetSize),
-                     .depthAtInfinity = float(-camera.nearDistance / (camera.farDistance - camera.nearDistance))};
+                     .depthAtInfinity = float(-camera.nearDistance / (camera.farDistance - camera.nearDistance)),
+                     .firstId = drawn.firstId};
     const auto dispatch = [&](const char* file, std::uint32_t count) {
         const Pipeline& pipeline = rasterPipeline(file, frame, drawn, pass);
         bind(commands, pipeline, drawn.set);
@@ -159,6 +183,23 @@ void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, Dr
                                 uvec2 targetSize) {
     vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, 0); // nothing, farthest depth
     for (const Drawn& drawn : frame.drawn) rasterizeMesh(commands, frame, drawn, pass, targetSize);
+}
+
+/// Normals and colours of the triangles that samples name.
+void Renderer::Parts::resolve(VkCommandBuffer commands, const Frame& frame) {
+    for (const Drawn& drawn : frame.drawn) {
+        const Pipeline& pipeline =
+            computePipeline("raster_resolve.comp", nullptr, constantsOf(frame, drawn, DrawPass::surface));
+        bind(commands, pipeline, drawn.set);
+        const auto faces = std::uint32_t(drawn.diced.faceRates.size());
+        pushConstants(commands, pipeline,
+                      RasterPush{.size = ivec2(size()),
+                                 .count = meshSizeOf(drawn).triangleCount,
+                                 .firstId = drawn.firstId,
+                                 .faceCount = faces});
+        vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+    }
+    barrier(commands);
 }
 
 } // namespace relief

@@ -232,6 +232,7 @@ void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
 void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) {
     if (frame.raster == Raster::compute) {
         rasterize(commands, frame, DrawPass::surface, buffers->samples.buffer, size());
+        if (frame.writesIds) resolve(commands, frame);
         return;
     }
     Rendering::Targets all{

@@ -47,12 +47,19 @@ struct Renderer::Parts {
         Buffer draws;
         DrawPlan plan;
         DicedMesh diced;
+        TexelBuffer faceTriangles; ///< kBindFaceTriangles, where the technique wants faces
+        std::uint32_t firstId = 0; ///< triangles of the instances before it
         BindingSet set;
 
         [[nodiscard]] const ModelPictures& pictures() const {
             return surface != nullptr ? surface->pictures : mesh->pictures;
         }
-        [[nodiscard]] bool isBentByFunction() const { return surface != nullptr && surface->functionBendsNormals; }
+        [[nodiscard]] const HeightFunction* function() const {
+            return surface != nullptr ? surface->function.get() : mesh->function.get();
+        }
+        [[nodiscard]] bool isBentByFunction() const {
+            return surface != nullptr ? surface->functionBendsNormals : mesh->function != nullptr;
+        }
         [[nodiscard]] bool isTriangles() const { return surface != nullptr && surface->isTriangles(); }
     };
 
@@ -69,6 +76,8 @@ struct Renderer::Parts {
         Buffer materialTable; ///< where there are several instances
         BindingSet set;
         FrameStats stats;
+
+        bool writesIds = false; ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
 
         [[nodiscard]] bool hasInstances() const { return drawn.size() > 1; }
         [[nodiscard]] bool castsShadows() const { return options.lighting.castsShadows && technique.isLit; }
@@ -113,7 +122,10 @@ struct Renderer::Parts {
     // The compute rasterizer: raster.cpp.
     [[nodiscard]] std::string obstacleToRaster(const Frame& frame) const;
     [[nodiscard]] Raster rasterOf(const Frame& frame) const;
+    [[nodiscard]] bool needsIds(const Frame& frame) const;
     void useBuffers(Frame& frame);
+    void makeMeshBuffers(const Frame& frame);
+    void resolve(VkCommandBuffer commands, const Frame& frame);
     const Pipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
     /// Clears the target of a pass, and writes all instances to it.
     void rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target, uvec2 targetSize);

@@ -39,6 +39,11 @@ SampleBuffers makeSampleBuffers(Device& device, const RendererDesc& desc) {
     return b;
 }
 
+TexelBuffer makeSampleTable(Device& device, const RendererDesc& desc, const char* name, std::uint64_t pixelBytes) {
+    const std::uint64_t pixels = std::uint64_t(desc.width) * std::uint64_t(desc.height);
+    return makeTexels(device, {.name = name, .bytes = pixels * pixelBytes}, VK_FORMAT_R32G32B32A32_UINT);
+}
+
 Buffer makePictureBuffer(Device& device, const RendererDesc& desc) {
     const std::uint64_t pixels = std::uint64_t(desc.width) * std::uint64_t(desc.height);
     return makeBuffer(device, {.name = "picture", .bytes = pixels * 8, .memory = MemoryUse::readback});

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "displacement/neighbours.h"
 #include "maps/maps.h"
-#include "maps/neighbours.h"
 #include "maps/transforms.h"
 
 namespace relief {
@@ -34,9 +34,7 @@ struct Slopes {
 };
 
 void checkNormals(const NormalMap& map, const std::string& name) {
-    if (map.space != NormalSpace::tangent)
-        fail(Failure::input, "{}: heights are made of normals in tangent space; those of an object have no one height",
-             name);
+    checkNormalSpace(map.space, name);
     const auto isBelow = [](const vec3& n) { return !(n.z > 0); };
     const auto below = std::ranges::find_if(map.normals, isBelow);
     if (below == map.normals.end()) return;
@@ -191,6 +189,12 @@ double computeSlopeRounding(const ImageInfo& info) {
                         : info.sample == "half"   ? 2.0 / 2048
                                                   : 0;
     return step / std::sqrt(12.0);
+}
+
+void checkNormalSpace(NormalSpace space, const std::string& name) {
+    if (space != NormalSpace::tangent)
+        fail(Failure::usage, "{}: heights are made of normals in tangent space; those of an object have no one height",
+             name);
 }
 
 IntegratedHeights integrateNormals(const NormalMap& map, const IntegrationOptions& options, const std::string& name) {

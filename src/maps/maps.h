@@ -34,6 +34,9 @@ struct IntegratedHeights {
 /// Computes the standard deviation of slopes of normals that a file's samples round; 0 for floats of 32 bits and more.
 double computeSlopeRounding(const ImageInfo& info);
 
+/// Throws Failure::usage for normals that no heights can be made of: those of object space. `name` stands for the map.
+void checkNormalSpace(NormalSpace space, const std::string& name);
+
 struct IntegrationOptions {
     MapSize size{1};     ///< of the unit square
     double rounding = 0; ///< computeSlopeRounding of the file
@@ -48,7 +51,7 @@ struct IntegrationOptions {
 /// hides of them (Tikhonov); without that, errors of the slopes show as a pattern of single texels. Across a clamped
 /// border a map may hold all of a slope, or the half that a clamped difference sees: all of it where that makes much
 /// smoother heights.
-/// Throws Failure::input for normals with z <= 0 and for object space; `name` stands for the map in messages.
+/// Throws Failure::input for normals with z <= 0, and as checkNormalSpace; `name` stands for the map in messages.
 IntegratedHeights integrateNormals(const NormalMap& map, const IntegrationOptions& options, const std::string& name);
 
 } // namespace relief

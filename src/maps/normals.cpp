@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "displacement/neighbours.h"
 #include "maps/maps.h"
-#include "maps/neighbours.h"
 
 namespace relief {
 
@@ -15,17 +15,9 @@ NormalMap computeNormalMap(const HeightMap& map, const MapSize& size) {
     normals.normals.reserve(map.texels.size());
     // Differences of two texels, as slopes.
     const double perX = 0.5 * map.scale * map.width / size.x, perY = 0.5 * map.scale * map.height / size.y;
-    for (int j = 0; j < map.height; ++j) {
-        const float* row = &map.texels[std::size_t(j) * std::size_t(map.width)];
-        const float* above = &map.texels[std::size_t(beside(j, -1, map.height, map.wrap)) * std::size_t(map.width)];
-        const float* below = &map.texels[std::size_t(beside(j, 1, map.height, map.wrap)) * std::size_t(map.width)];
-        for (int i = 0; i < map.width; ++i) {
-            const double across =
-                double(row[beside(i, 1, map.width, map.wrap)]) - row[beside(i, -1, map.width, map.wrap)];
-            const double up = double(above[i]) - below[i];
-            normals.normals.push_back(vec3(glm::normalize(dvec3(-perX * across, -perY * up, 1))));
-        }
-    }
+    eachDifference(map.width, map.height, map.texels, map.wrap, [&](const dvec2& difference) {
+        normals.normals.push_back(vec3(glm::normalize(dvec3(-perX * difference.x, -perY * difference.y, 1))));
+    });
     return normals;
 }
 

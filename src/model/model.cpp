@@ -103,10 +103,10 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     // Points of the pose that the cage is in, and the bounds of its faces.
     const std::vector<vec3> refined = refinePoints(surface, desc.cagePositions);
     faceTexBoxes = relief::faceTexBoxes(surface);
-    faceHeightBounds = function && !functionBendsNormals ? std::vector<float>(surface.faces.size(), height->heightBound)
-                                                         : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
+    const bool movesByFunction = function && functionMovesSurface;
+    faceHeightBounds = movesByFunction ? std::vector<float>(surface.faces.size(), height->heightBound)
+                                       : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
     faceBounds = relief::faceBounds(surface, refined, faceHeightBounds);
-    const bool movesByFunction = function && !functionBendsNormals;
     if (enclosesVolume(surface) && !movesByFunction) { // nothing bounds the slopes of a function
         faceNormals = relief::faceNormals(surface, refined);
         normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
@@ -127,6 +127,7 @@ void SurfaceModel::setFunction(const FunctionHeights& heights) {
     tables.heightUnit = float(heights.unit);
     tables.heightStep = heights.step;
     faceHeightRanges = heights.faceRanges;
+    functionMovesSurface = heights.movesSurface;
     functionBendsNormals = heights.bendsNormals;
 }
 
@@ -136,35 +137,41 @@ void SurfaceModel::setPoints(PointSets other) {
     normalBounds.clear();
 }
 
-std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents) {
-    RELIEF_CHECK(tangents.ps.size() == mesh.positions.size());
-    std::vector<vec4> texels;
-    texels.reserve(2 * tangents.ps.size());
-    for (std::size_t i = 0; i < tangents.ps.size(); ++i) {
-        // grad s = (p_t x n) / (n . (p_s x p_t)), grad t = (n x p_s) / (n . (p_s x p_t))
-        const float length = glm::length(mesh.normals[i]);
-        const vec3 n = length > 0 ? mesh.normals[i] / length : vec3(0); // without a direction there are no gradients
-        const vec3 &ps = tangents.ps[i], &pt = tangents.pt[i];
-        const float area = glm::dot(n, glm::cross(ps, pt)), factor = area != 0 ? 1 / area : 0;
-        texels.emplace_back(factor * glm::cross(pt, n), 0.0f);
-        texels.emplace_back(factor * glm::cross(n, ps), 0.0f);
-    }
-    return texels;
-}
-
 namespace {
 
 /// What bends the normals of a mesh, and the tangents that it needs for that.
 void uploadDetail(Device& device, const MeshModelDesc& desc, MeshModel& model) {
     if (desc.bump != nullptr) model.pictures.slopes = uploadSlopes(device, *desc.bump);
     if (desc.normalMap != nullptr) model.pictures.normalMap = uploadNormals(device, *desc.normalMap);
+    const bool needsTangents =
+        model.pictures.needTexGradients() || (desc.function != nullptr && !desc.mesh->texCoords.empty());
+    if (needsTangents) RELIEF_CHECK(desc.tangents != nullptr);
     std::vector<vec4> texels;
-    if (model.pictures.needTexGradients()) {
-        RELIEF_CHECK(desc.tangents != nullptr);
-        texels = toTexGradients(*desc.mesh, *desc.tangents);
-    }
+    if (needsTangents || desc.function != nullptr)
+        texels = toTexGradients(*desc.mesh, desc.tangents, model.restPositions);
     model.texGradients =
-        uploadTexels(device, {.name = "mesh texture gradients"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
+        uploadTexels(device, {.name = "mesh texture gradients", .usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+                     VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
+}
+
+} // namespace
+
+namespace {
+
+void setFunction(const MeshModelDesc& desc, MeshModel& model) {
+    const FunctionHeights& heights = *desc.function;
+    RELIEF_CHECK(heights.movesSurface == false);
+    const std::vector<vec3>& positions = desc.mesh->positions;
+    model.function = heights.function;
+    model.restPositions = desc.restPositions.empty()
+                              ? positions
+                              : std::vector<vec3>(desc.restPositions.begin(), desc.restPositions.end());
+    RELIEF_CHECK(model.restPositions.size() == positions.size());
+    model.tables.maps[0].scale = float(heights.scale);
+    model.tables.maps[0].mid = float(heights.mid);
+    model.tables.heightBound = heights.bound;
+    model.tables.heightUnit = float(heights.unit);
+    model.tables.heightStep = heights.step;
 }
 
 } // namespace
@@ -184,6 +191,8 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
     indices = uploadIndices(device, mesh.indices);
     if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
+    tables.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
+    if (desc.function != nullptr) setFunction(desc, *this);
     uploadDetail(device, desc, *this);
     vertexCount = std::uint32_t(mesh.positions.size());
     triangleCount = std::uint32_t(mesh.indices.size() / 3);

@@ -23,10 +23,11 @@ namespace relief {
 struct FunctionHeights {
     std::shared_ptr<const HeightFunction> function;
     double scale = 1, mid = 0;
-    double unit = 1;               ///< cage units per unit of positions
-    float bound = 0;               ///< largest |h|; what is beyond it is clamped to it
-    float step = 0;                ///< of slopes: distance of their points to either side, in units of positions
-    bool bendsNormals = false;     ///< per fragment, instead of moving the surface; only where the cage never moves
+    double unit = 1; ///< cage units per unit of positions
+    float bound = 0; ///< largest |h|; what is beyond it is clamped to it
+    float step = 0;  ///< of slopes: distance of their points to either side, in units of positions
+    bool movesSurface = true;
+    bool bendsNormals = false;     ///< per fragment: all of its slopes, whatever vertices follow of its heights
     std::vector<float> faceRanges; ///< per face: how far its heights differ, for the rates of edges; or empty
 };
 
@@ -56,6 +57,7 @@ struct GpuSlopeMap {
     Texture texture; ///< as SlopeMap::texels
     float unit = 1;  ///< SlopeMap::unit
     Wrap wrap = Wrap::repeat;
+    std::uint64_t byteCount = 0; ///< of its texels, mip levels included
 };
 
 /// What fragments read of a model, as far as there is any of it.
@@ -104,8 +106,8 @@ struct SurfaceModel {
     PointSets points;
     pass::ModelTables tables{}; ///< where records begin; describe() fills in points and maps, Dicer what dicing needs
     std::optional<GpuHeightMap> height;
-    std::shared_ptr<const HeightFunction> function; ///< null: heights are those of a map
-    bool functionBendsNormals = false;              ///< FunctionHeights::bendsNormals
+    std::shared_ptr<const HeightFunction> function;                  ///< null: heights are those of a map
+    bool functionMovesSurface = false, functionBendsNormals = false; ///< as in FunctionHeights
     ModelPictures pictures;
     std::uint64_t byteCount = 0; ///< resident on the device: buffers and textures
 
@@ -133,6 +135,8 @@ struct SurfaceModel {
 
     [[nodiscard]] bool isTriangles() const { return sideCount == 3; }
     [[nodiscard]] bool stretches() const { return points.stretches; }
+    /// Whether vertices are displaced, by a map or a function.
+    [[nodiscard]] bool isDisplaced() const { return height && (!function || functionMovesSurface); }
     /// Whether the surface was another one in the frame that motion is measured from.
     [[nodiscard]] bool hasMotion() const {
         return points.before != points.now || (function && tables.heightTime != tables.heightTimeBefore);
@@ -157,9 +161,11 @@ private:
 
 struct MeshModelDesc {
     const DenseMesh* mesh = nullptr;
-    const HeightMap* bump = nullptr;      ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
-    const NormalMap* normalMap = nullptr; ///< ... unless the map is of object space
-    const Tangents* tangents = nullptr;   ///< of the mesh
+    const HeightMap* bump = nullptr;           ///< as SurfaceModelDesc::bump; it and a normal map need tangents ...
+    const NormalMap* normalMap = nullptr;      ///< ... unless the map is of object space
+    const FunctionHeights* function = nullptr; ///< that bends normals; needs tangents where there are coordinates
+    std::span<const vec3> restPositions;       ///< what a function is given, per vertex; empty: those of the mesh
+    const Tangents* tangents = nullptr;        ///< of the mesh
     Wrap albedoWrap = Wrap::repeat;
     const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
 };
@@ -170,16 +176,26 @@ struct MeshModel {
 
     TexelBuffer vertices;     ///< two texels per vertex: position with height, normal
     TexelBuffer texCoords;    ///< per vertex, or empty
-    TexelBuffer texGradients; ///< two texels per vertex, see shaders/varyings.glsl; empty where nothing reads them
+    TexelBuffer texGradients; ///< as kBindMeshTexGradients; empty where nothing reads them
     TexelBuffer indices;      ///< three 32-bit indices per triangle; an index buffer too
     ModelPictures pictures;
+    pass::ModelTables tables{}; ///< what a height function needs
+    std::shared_ptr<const HeightFunction> function;
+    std::vector<vec3> restPositions; ///< on the host, per vertex; empty without a function
     std::uint32_t vertexCount = 0, triangleCount = 0;
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
+
+    /// As SurfaceModel::setTime.
+    void setTime(double seconds, double before) {
+        tables.heightTime = float(seconds), tables.heightTimeBefore = float(before);
+    }
 };
 
-/// What MeshModel::texGradients holds: the gradients of s and of t along the mesh in turn, and no slopes.
-std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents& tangents);
+/// What MeshModel::texGradients holds of a mesh in any pose: the gradients of s and of t along it, and no slopes; then,
+/// where there are rest positions, those and how they move with points of the mesh (shaders/varyings.glsl).
+/// `tangents`: null for gradients that are 0. `restPositions`: per vertex, or empty.
+std::vector<vec4> toTexGradients(const DenseMesh& mesh, const Tangents* tangents, std::span<const vec3> restPositions);
 
 // --- either -------------------------------------------------------------------------------------------------------
 

@@ -5,6 +5,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "displacement/mips.h"
+
 namespace relief {
 namespace {
 
@@ -63,23 +65,13 @@ AlbedoMips albedoMips(const Image& image) {
 /// Normals as four halves each, and those of the mips.
 std::vector<std::uint64_t> packNormals(const NormalMap& map, std::uint32_t& levels) {
     std::vector<std::uint64_t> texels;
-    std::vector<vec3> level = map.normals;
-    int width = map.width, height = map.height;
+    MapLevel<vec3> level{map.width, map.height, map.normals};
+    std::vector<vec3> normals; // of the level
     for (levels = 1;; ++levels) {
-        for (const vec3& n : level) texels.push_back(glm::packHalf4x16({n, 0}));
-        if (width == 1 && height == 1) return texels;
-        const int w = std::max(width / 2, 1), h = std::max(height / 2, 1);
-        const auto at = [&](int x, int y) {
-            return level[std::size_t(std::min(y, height - 1)) * std::size_t(width) +
-                         std::size_t(std::min(x, width - 1))];
-        };
-        std::vector<vec3> coarse;
-        coarse.reserve(std::size_t(w) * std::size_t(h));
-        for (int y = 0; y < h; ++y)
-            for (int x = 0; x < w; ++x)
-                coarse.push_back(0.25f * (at(2 * x, 2 * y) + at(2 * x + 1, 2 * y) + at(2 * x, 2 * y + 1) +
-                                          at(2 * x + 1, 2 * y + 1)));
-        level = std::move(coarse), width = w, height = h;
+        for (const vec3& n : level.texels) texels.push_back(glm::packHalf4x16({n, 0}));
+        if (level.width == 1 && level.height == 1) return texels;
+        normals = halved(level);
+        level = {level.halfWidth(), level.halfHeight(), normals};
     }
 }
 
@@ -94,7 +86,7 @@ GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
                            .mipCount = slopes.levelCount,
                            .format = VK_FORMAT_R16G16_SFLOAT},
                           std::as_bytes(std::span(slopes.texels)), 4),
-            slopes.unit, map.wrap};
+            slopes.unit, map.wrap, slopes.texels.size() * sizeof(slopes.texels[0])};
 }
 
 GpuNormalMap uploadNormals(Device& device, const NormalMap& map) {

@@ -41,6 +41,9 @@ constexpr BindingRow kBindings[] = {
     {kBindScreen, BindingKind::words},
     {kBindSamples, BindingKind::words},
     {kBindShadowCodes, BindingKind::words},
+    {kBindSampleColors, BindingKind::words},
+    {kBindSampleInstances, BindingKind::words},
+    {kBindFaceTriangles, BindingKind::words},
 };
 static_assert(std::size(kBindings) == kBindCount);
 
@@ -94,6 +97,8 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHeightFunction] = heightFunction;
     values[kIdReadsRest] = readsRest;
     values[kIdReadsSampleBuffers] = readsSampleBuffers;
+    values[kIdWritesIds] = writesIds;
+    values[kIdHasSampleColors] = hasSampleColors;
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
@@ -102,7 +107,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
 
 ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
     return {.hasTexCoords = model.hasTexCoords,
-            .hasHeight = model.height.has_value() && !model.functionBendsNormals,
+            .hasHeight = model.isDisplaced(),
             .normal = normal,
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),
@@ -112,7 +117,11 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
             .readsRest = model.points.rest.has_value()};
 }
 
-ShaderConstants constantsOf(const MeshModel& model) { return {.hasTexCoords = model.hasTexCoords, .isMesh = true}; }
+ShaderConstants constantsOf(const MeshModel& model) {
+    return {.hasTexCoords = model.hasTexCoords,
+            .isMesh = true,
+            .heightFunction = model.function ? model.function->number() : 0};
+}
 
 std::uint64_t largestTable(const Device& device, std::uint64_t elementBytes) {
     const DeviceTraits& traits = device.traits();
@@ -153,13 +162,17 @@ Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string
     return {stage, shaderCode(file, isTriangles, device.traits().readsTablesAs)};
 }
 
-Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, const SurfaceModel& model) {
-    if (model.function) {
-        const std::span<const std::uint32_t> code =
-            model.function->shader(file, model.isTriangles(), device.traits().readsTablesAs);
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file,
+                  const HeightFunction* function, bool isTriangles) {
+    if (function != nullptr) {
+        const std::span<const std::uint32_t> code = function->shader(file, isTriangles, device.traits().readsTablesAs);
         if (!code.empty()) return {stage, code};
     }
-    return shaderStage(device, stage, file, model.isTriangles());
+    return shaderStage(device, stage, file, isTriangles);
+}
+
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, const SurfaceModel& model) {
+    return shaderStage(device, stage, file, model.function.get(), model.isTriangles());
 }
 
 PipelineLayoutDesc passLayout(const Device& device) {
@@ -221,7 +234,7 @@ void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindi
 }
 
 void describe(const MeshModel& model, PassInputs& inputs, PassBindings& bindings) {
-    inputs.model.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
+    inputs.model = model.tables;
     bindings[kBindMesh] = model.vertices.binding();
     bindings[kBindMeshIndices] = model.indices.binding();
     bindings[kBindMeshTexCoords] = model.texCoords.binding();

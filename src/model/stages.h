@@ -31,7 +31,7 @@ struct ShaderConstants {
     std::uint32_t normalMap = kNormalMapNone;
     std::uint32_t heightFunction = 0; ///< HeightFunction::number()
     bool readsRest = false;
-    bool readsSampleBuffers = false;
+    bool readsSampleBuffers = false, writesIds = false, hasSampleColors = false;
 
     /// One value per id, in the order of ids.
     [[nodiscard]] std::vector<std::uint32_t> values() const;
@@ -58,8 +58,11 @@ PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::u
 
 /// SPIR-V of a stage for this device's way of reading tables, for faces with four sides or three.
 Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles = false);
-/// SPIR-V of a stage that works on a surface, with the surface's height function if it has one. It lives as long as
-/// that.
+/// SPIR-V of a stage with a height function in it, where the stage depends on one; null: as above. It lives as long as
+/// the function.
+Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file,
+                  const HeightFunction* function, bool isTriangles);
+/// SPIR-V of a stage that works on a surface, with the surface's height function if it has one.
 Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, const SurfaceModel& model);
 
 // --- set 0 ---------------------------------------------------------------------------------------------------------

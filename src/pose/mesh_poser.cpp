@@ -24,7 +24,7 @@ struct MeshPoser::Parts {
     Device& device;
     MeshModel& model;
     PosePush push;
-    TexelBuffer rest, joints, influences, upload;
+    TexelBuffer rest, gradients, joints, influences, upload;
     Buffer staging; ///< of vertices that the host has posed
     Pipeline pipeline;
     BindingSet set;
@@ -39,6 +39,13 @@ MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, co
         return uploadTexels(device, {.name = name}, format, std::as_bytes(span));
     };
     p.rest = texels("mesh at rest", VK_FORMAT_R32G32B32A32_SFLOAT, std::span(vertices));
+    if (model.texGradients.buffer.bytes > 0) { // of the model, which is at rest
+        std::vector<vec4> gradients(model.texGradients.buffer.bytes / sizeof(vec4));
+        downloadBytes(device, model.texGradients.buffer, std::as_writable_bytes(std::span(gradients)));
+        p.gradients = texels("mesh gradients at rest", VK_FORMAT_R32G32B32A32_SFLOAT, std::span(gradients));
+        p.push.gradients = model.texGradients.buffer.address;
+        p.push.gradientTexels = std::uint32_t(gradients.size() / mesh.positions.size());
+    }
     p.joints = texels("mesh joints", VK_FORMAT_R32_UINT, std::span(rig.joints));
     p.influences = texels("mesh joint weights", VK_FORMAT_R32_SFLOAT, std::span(rig.weights));
 
@@ -57,6 +64,7 @@ MeshPoser::MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, co
     p.pipeline = makePosePipeline(device, "pose_mesh.comp");
     PoseBindings bindings;
     for (Binding& binding : bindings) binding = p.rest.binding(); // every one is bound, read or not
+    if (p.push.gradientTexels > 0) bindings[kPoseGradients] = p.gradients.binding();
     bindings[kPoseUpload] = p.upload.binding();
     bindings[kPoseJoints] = p.joints.binding();
     bindings[kPoseInfluences] = p.influences.binding();
@@ -89,8 +97,8 @@ std::uint64_t MeshPoser::upload(const DenseMesh& posed, const Tangents* tangents
     Parts& p = *parts_;
     std::vector<vec4> texels = verticesOf(posed.positions, posed.normals);
     const std::uint64_t vertexBytes = texels.size() * sizeof(vec4);
-    if (tangents != nullptr) {
-        const std::vector<vec4> more = toTexGradients(posed, *tangents);
+    if (tangents != nullptr || p.model.function) {
+        const std::vector<vec4> more = toTexGradients(posed, tangents, p.model.restPositions);
         texels.insert(texels.end(), more.begin(), more.end());
     }
     const std::uint64_t bytes = texels.size() * sizeof(vec4);

@@ -94,7 +94,7 @@ public:
     MeshPoser(Device& device, MeshModel& model, const DenseMesh& mesh, const Rig& rig);
     ~MeshPoser();
 
-    /// Skins positions and normals on the device.
+    /// Skins positions and normals on the device, and the gradients of texture coordinates where the model has any.
     void pose(const Pose& pose);
     /// Uploads a mesh that the host has posed, and its tangents where the model has any; returns the bytes uploaded.
     std::uint64_t upload(const DenseMesh& posed, const Tangents* tangents = nullptr);

@@ -25,10 +25,14 @@ Model makeModel(Device& device, const LoadedObject& object) {
     MeshModelDesc desc{.mesh = &*object.dense,
                        .bump = object.bumpMap(),
                        .normalMap = object.normalMap ? &*object.normalMap : nullptr,
+                       .function = object.functionHeights(),
+                       .restPositions = object.denseRest,
                        .tangents = tangents ? &*tangents : nullptr,
                        .albedoWrap = object.wrap,
                        .albedo = object.albedo ? &*object.albedo : nullptr};
-    return MeshModel(device, desc);
+    MeshModel model(device, desc);
+    model.setTime(object.time, object.time);
+    return model;
 }
 
 void keepRestPose(Device& device, SurfaceModel& model, const LoadedObject& object, HeightSpace space) {

@@ -1,6 +1,7 @@
 // Heights by a function: what it displaces by, found out before anything is drawn.
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "scene/loading.h"
 
@@ -12,36 +13,62 @@ constexpr std::size_t kMeasuredPoints = 1u << 16; ///< of all faces and times to
 constexpr double kMargin = 1.25;                  ///< of a bound that is measured
 constexpr double kStepShare = 1.0 / 8192;         ///< of slopes: of the diagonal of the cage's box
 
+/// A point of a face, or of a triangle of a mesh.
 struct MeasuredPoint {
     int face = 0;
     dvec2 uv{0};
 };
 
-/// Spreads about `count` points over all faces alike, corners and edges included.
-std::vector<MeasuredPoint> spreadPoints(const ReferenceSurface& surface, std::size_t count) {
-    const double perFace = double(count) / std::max(surface.faceCount(), 1);
-    const int side = std::max(int(std::sqrt(perFace)), 3);
-    std::vector<MeasuredPoint> points;
-    for (int face = 0; face < surface.faceCount(); ++face) {
-        if (surface.isHole(face)) continue;
-        for (int j = 0; j < side; ++j)
-            for (int i = 0; i < side; ++i) {
-                const dvec2 uv = dvec2(i, j) / double(side - 1);
-                if (surface.sideCount() == 4 || i + j < side) points.push_back({face, uv});
-            }
-    }
+/// Points all over what is drawn, and what the function is given there at rest; times are left at 0.
+struct MeasuredPoints {
+    std::vector<MeasuredPoint> at;
+    std::vector<FunctionPoint> given;
+    std::size_t faceCount = 0;
+};
+
+/// Points per side of a face, for about `count` points on all faces.
+int sideOfLattice(std::size_t count, std::size_t faceCount) {
+    return std::max(int(std::sqrt(double(count) / double(std::max<std::size_t>(faceCount, 1)))), 3);
+}
+
+/// Adds a lattice of side x side points of a face, corners and edges included; of a triangle those with u + v <= 1.
+void addLattice(int face, int side, bool isTriangle, std::vector<MeasuredPoint>& points) {
+    for (int j = 0; j < side; ++j)
+        for (int i = 0; i < side; ++i)
+            if (!isTriangle || i + j < side) points.push_back({face, dvec2(i, j) / double(side - 1)});
+}
+
+MeasuredPoints spreadOverSurface(const LoadedObject& object, double unit, std::size_t count) {
+    Cage rest = object.cage;
+    if (!object.restPositions.empty()) rest.positions = object.restPositions;
+    const ReferenceSurface surface(rest, {.scheme = object.options.scheme, .isolation = kMeasuredIsolation});
+    MeasuredPoints points{.faceCount = std::size_t(surface.faceCount())};
+    const int side = sideOfLattice(count, points.faceCount);
+    for (int face = 0; face < surface.faceCount(); ++face)
+        if (!surface.isHole(face)) addLattice(face, side, surface.sideCount() == 3, points.at);
+    for (const MeasuredPoint& point : points.at)
+        points.given.push_back(
+            {.p = vec3(unit * surface.limit(point.face, point.uv).p),
+             .st = surface.hasTexCoords() ? vec2(surface.texture(point.face, point.uv).st) : vec2(0)});
     return points;
 }
 
-/// What the function is given at these points of `surface`; times are left at 0.
-std::vector<FunctionPoint> toFunctionPoints(const ReferenceSurface& surface, std::span<const MeasuredPoint> points,
-                                            double unit) {
-    std::vector<FunctionPoint> given;
-    given.reserve(points.size());
-    for (const MeasuredPoint& point : points)
-        given.push_back({.p = vec3(unit * surface.limit(point.face, point.uv).p),
-                         .st = vec2(surface.texture(point.face, point.uv).st)});
-    return given;
+MeasuredPoints spreadOverMesh(const LoadedObject& object, double unit, std::size_t count) {
+    const DenseMesh& mesh = *object.dense;
+    MeasuredPoints points{.faceCount = mesh.indices.size() / 3};
+    const int side = sideOfLattice(count, points.faceCount);
+    for (std::size_t face = 0; face < points.faceCount; ++face) addLattice(int(face), side, true, points.at);
+    for (const MeasuredPoint& point : points.at) {
+        const double weights[] = {1 - point.uv.x - point.uv.y, point.uv.x, point.uv.y};
+        FunctionPoint given;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t vertex = mesh.indices[3 * std::size_t(point.face) + k];
+            given.p += vec3(unit * weights[k] * dvec3(object.denseRest[vertex]));
+            if (!mesh.texCoords.empty()) given.st += float(weights[k]) * mesh.texCoords[vertex];
+        }
+        points.given.push_back(given);
+    }
+    return points;
 }
 
 /// Checks values against the stated bound, and keeps the largest one and the range on each face.
@@ -116,7 +143,8 @@ void checkSize(const LoadedObject& object, double bound) {
 FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage) {
     FunctionHeights heights;
     heights.function = std::make_shared<const HeightFunction>(readHeightFunction(desc.height.function));
-    heights.bendsNormals = desc.height.detail == Detail::bump;
+    heights.movesSurface = desc.height.detail != Detail::bump;
+    heights.bendsNormals = desc.height.detail == Detail::bump || desc.height.detail == Detail::both;
     heights.unit = cage.coordinates.unit;
     heights.scale = desc.height.scale.value_or(1) / heights.unit;
     heights.mid = desc.height.mid.value_or(0);
@@ -133,38 +161,36 @@ void measureFunction(Device& device, LoadedObject& object, const HeightDesc& des
     const std::optional<double> stated = findStatedBound(evaluator, function, desc);
 
     // Points all over the surface at rest.
-    Cage rest = object.cage;
-    if (!object.restPositions.empty()) rest.positions = object.restPositions;
-    const ReferenceSurface surface(rest, {.scheme = object.options.scheme, .isolation = kMeasuredIsolation});
-    const std::vector<MeasuredPoint> points = spreadPoints(surface, kMeasuredPoints / std::max(times.size(), 1ul));
-    std::vector<FunctionPoint> given = toFunctionPoints(surface, points, heights.unit);
+    const bool isMeasuredApart = !steadyTimes.empty();
+    const std::size_t timeCount = std::max<std::size_t>(isMeasuredApart ? steadyTimes.size() : times.size(), 1);
+    MeasuredPoints points = object.dense ? spreadOverMesh(object, heights.unit, kMeasuredPoints / timeCount)
+                                         : spreadOverSurface(object, heights.unit, kMeasuredPoints / timeCount);
 
-    Census census(function, stated, heights.mid, std::size_t(surface.faceCount()));
-    const auto evaluateAt = [&](double time) {
-        for (FunctionPoint& point : given) point.t = float(time);
-        return evaluator.evaluate(given);
-    };
-    for (const double time : times) {
-        const std::vector<FunctionValue> values = evaluateAt(time);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            census.check(points[i], time, values[i]);
-            if (steadyTimes.empty()) census.add(points[i], values[i]);
+    // Values are checked at times that are drawn, and measured at those that do not depend on which are drawn; where
+    // the two agree, they are evaluated once.
+    Census census(function, stated, heights.mid, points.faceCount);
+    std::set<double> all(times.begin(), times.end());
+    all.insert(steadyTimes.begin(), steadyTimes.end());
+    for (const double time : all) {
+        for (FunctionPoint& point : points.given) point.t = float(time);
+        const std::vector<FunctionValue> values = evaluator.evaluate(points.given);
+        const bool isChecked = std::ranges::count(times, time) > 0;
+        const bool isMeasured = !isMeasuredApart || std::ranges::count(steadyTimes, time) > 0;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (isChecked) census.check(points.at[i], time, values[i]);
+            if (isMeasured) census.add(points.at[i], values[i]);
         }
-    }
-    for (const double time : steadyTimes) {
-        const std::vector<FunctionValue> values = evaluateAt(time);
-        for (std::size_t i = 0; i < points.size(); ++i) census.add(points[i], values[i]);
     }
     const double bound =
         std::abs(heights.scale) * (stated ? *stated + std::abs(heights.mid) : kMargin * census.largest());
     checkSize(object, bound);
     heights.bound = float(bound);
-    if (!heights.bendsNormals) heights.faceRanges = census.ranges(heights.scale);
+    if (heights.movesSurface) heights.faceRanges = census.ranges(heights.scale);
     if (!stated)
         warn(fmt::format(
             "{}: states no kBound; the largest height at {} points is {:.4g}, and heights are clamped to a "
             "quarter more, {:.4g}",
-            function.name(), points.size() * times.size(), heights.unit * bound / kMargin, heights.unit * bound));
+            function.name(), points.at.size() * timeCount, heights.unit * bound / kMargin, heights.unit * bound));
 }
 
 } // namespace relief

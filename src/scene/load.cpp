@@ -28,15 +28,8 @@ Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
 /// What cannot work together, whatever the files hold.
 void checkUse(const ObjectDesc& desc, bool isDense) {
     const Detail detail = desc.height.detail;
-    if (!desc.height.function.empty() && detail == Detail::both)
-        fail(Failure::usage, "{}: --detail both divides the mips of a height map; a function has none",
-             desc.height.function);
-    if (isDense && !desc.height.function.empty())
-        fail(Failure::usage,
-             "{}: height functions are for subdivision surfaces, and this is drawn as plain polygons; name --scheme "
-             "catmark, loop or bilinear",
-             desc.cage);
-    if (isDense && !desc.height.path.empty() && (detail == Detail::displacement || detail == Detail::both))
+    const bool hasHeights = !desc.height.path.empty() || !desc.height.function.empty();
+    if (isDense && hasHeights && (detail == Detail::displacement || detail == Detail::both))
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme "
              "catmark, loop or bilinear, or --detail bump",
@@ -53,6 +46,14 @@ void checkBentNormals(const ObjectDesc& desc, const Cage& cage) {
         fail(Failure::input, "{}: there are no texture coordinates, which {} needs", desc.cage, map);
 }
 
+/// Bump and both are what heights do: without any, the picture is that of none.
+void warnOfNoHeights(const ObjectDesc& desc, const Warn& warn) {
+    const Detail detail = desc.height.detail;
+    if (desc.height.path.empty() && desc.height.function.empty() && (detail == Detail::bump || detail == Detail::both))
+        warn(fmt::format("--detail {} shows nothing without heights; name a --height map or a --height-function",
+                         wordOf(kDetails, detail)));
+}
+
 void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) {
     if (desc.motion.time && !object.animation && !object.function)
         fail(Failure::usage,
@@ -63,10 +64,26 @@ void poseAsAsked(LoadedObject& object, const ObjectDesc& desc, CageState state) 
     if (object.animation && state == CageState::posed) poseCage(object, desc.motion);
 }
 
+/// The polygons of a mesh at rest.
+DenseMesh makeRestMesh(const LoadedObject& object) {
+    if (object.restPositions.empty()) return *object.dense;
+    Cage rest = object.cage;
+    rest.positions = object.restPositions;
+    return denseMesh(rest);
+}
+
 void splitForTangents(LoadedObject& object) {
     const bool isTurned = object.normalMap && object.normalMap->space == NormalSpace::tangent;
-    object.needsTangents = isTurned || object.bumpMap() != nullptr;
-    if (object.dense && object.needsTangents) object.dense = splitMirrored(std::move(*object.dense));
+    const bool isBent = object.dense && object.functionHeights() != nullptr;
+    object.needsTangents = isTurned || object.bumpMap() != nullptr || (isBent && !object.dense->texCoords.empty());
+    std::optional<DenseMesh> rest;
+    if (object.dense && object.function)
+        rest = makeRestMesh(object); // where it is measured, whether it is shown or not
+    if (object.dense && object.needsTangents) {
+        object.dense = splitMirrored(std::move(*object.dense));
+        if (rest) rest = splitMirrored(std::move(*rest));
+    }
+    if (rest) object.denseRest = std::move(rest->positions);
 }
 
 } // namespace
@@ -113,8 +130,6 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     if (!desc.height.function.empty())
         object.function = loadFunction(desc, object.cage), object.detail = desc.height.detail;
     object.animation = loadAnimation(desc.motion, object.cage, warn);
-    if (object.animation && object.function && object.function->bendsNormals)
-        fail(Failure::usage, "{}: --detail bump by a function is for cages that nothing moves", desc.height.function);
 
     // Point caches and skins fit the cage as it is in its file, so that it is welded after them.
     if (desc.weld) weldObject(object, *desc.weld);
@@ -150,6 +165,8 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
             warnOutsideMap(object, scene.object.cage, normals, warn);
     }
     takeGltfTextures(scene.object, object, warn);
+    warnOfFlatTexCoords(scene.object, object.cage, warn);
+    warnOfNoHeights(object, warn);
     splitForTangents(scene.object);
     if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
     return scene;

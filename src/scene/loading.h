@@ -27,6 +27,9 @@ void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const Warn& 
 /// Warns where the cage's texture coordinates leave the unit square and nothing says how `map` continues there.
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn);
 
+/// Warns of faces whose texture coordinates span no area, where normals are bent or turned along them.
+void warnOfFlatTexCoords(const LoadedObject& object, const std::string& path, const Warn& warn);
+
 /// Takes heights into the unit of the cage's coordinates. Where they are much larger than the cage, that becomes a unit
 /// in between, so that squares of both are within the range of floats.
 void fitUnitToHeights(LoadedObject& object, const Warn& warn);

@@ -1,6 +1,7 @@
 // Maps of an object: heights and colors.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/loading.h"
 
@@ -29,6 +30,38 @@ void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string&
     warn(fmt::format("{}: texture coordinates go from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}), outside of 0..1, where {} "
                      "repeats (sets of UDIM tiles are not supported); --wrap repeat or clamp says what is meant",
                      desc.cage, lower.x, lower.y, upper.x, upper.y, map));
+}
+
+namespace {
+
+/// Whether all triangles between the first corner of a face and the others have no area in the texture, but for
+/// rounding.
+bool isFlatInTexture(const Cage& cage, std::size_t first, std::uint32_t size) {
+    constexpr double kRounding = 4 * std::numeric_limits<float>::epsilon();
+    const auto at = [&](std::size_t corner) { return dvec2(cage.texCoords[cage.texCorners[first + corner]]); };
+    for (std::size_t i = 1; i + 1 < size; ++i) {
+        const dvec2 a = at(i) - at(0), b = at(i + 1) - at(0), most = glm::max(glm::abs(at(0)), glm::abs(at(i)));
+        const double error = kRounding * std::max(most.x, most.y) * (glm::length(a) + glm::length(b));
+        if (std::abs(a.x * b.y - a.y * b.x) > error) return false;
+    }
+    return true;
+}
+
+} // namespace
+
+void warnOfFlatTexCoords(const LoadedObject& object, const std::string& path, const Warn& warn) {
+    const bool isTurned = object.normalMap && object.normalMap->space == NormalSpace::tangent;
+    const Cage& cage = object.cage;
+    if ((!isTurned && object.bumpMap() == nullptr) || !cage.hasTexCoords()) return;
+    std::size_t first = 0, count = 0;
+    for (const std::uint32_t size : cage.faceSizes) {
+        if (isFlatInTexture(cage, first, size)) ++count;
+        first += size;
+    }
+    if (count > 0)
+        warn(fmt::format("{}: the texture coordinates of {} of {} faces span no area: nothing says which way {} turns "
+                         "their normals, and they stay as they are",
+                         path, count, cage.faceSizes.size(), isTurned ? "the normal map" : "the height map"));
 }
 
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {

@@ -25,6 +25,18 @@ const GltfTexture* findShared(const std::vector<GltfMaterial>& materials, Textur
     return nullptr;
 }
 
+/// Warns where materials use a texture that they share in different ways: relief draws the first one's.
+template <typename Value>
+void warnOfDifferences(const std::vector<GltfMaterial>& materials, const GltfTexture& texture, const char* what,
+                       const Value& valueOf, const Warn& warn) {
+    const auto isAsFirst = [&](const GltfMaterial& m) { return valueOf(m) == valueOf(materials.front()); };
+    if (std::ranges::all_of(materials, isAsFirst)) return;
+    warn(fmt::format("{}: its {} materials differ in {}, and relief draws one material per object: that of the first "
+                     "one, {}, is taken",
+                     texture.name, materials.size(), what,
+                     materials.front().name.empty() ? "which has no name" : materials.front().name));
+}
+
 Image decodeTexture(const GltfTexture& texture) {
     return decodeImage({reinterpret_cast<const unsigned char*>(texture.bytes.data()), texture.bytes.size()},
                        texture.name);
@@ -45,6 +57,8 @@ void takeColors(LoadedObject& object, const std::vector<GltfMaterial>& materials
     if (texture == nullptr) return;
     object.albedo = toColors(decodeTexture(*texture));
     object.textureColor = vec3(materials.front().baseColorFactor);
+    const auto factorOf = [](const GltfMaterial& m) { return m.baseColorFactor; };
+    warnOfDifferences(materials, *texture, "baseColorFactor", factorOf, warn);
 }
 
 void takeNormals(LoadedObject& object, const std::vector<GltfMaterial>& materials, const ObjectDesc& desc,
@@ -55,6 +69,8 @@ void takeNormals(LoadedObject& object, const std::vector<GltfMaterial>& material
                                 .wrap = desc.height.wrap.value_or(texture->isClamped ? Wrap::clamp : Wrap::repeat),
                                 .limits = {}};
     object.normalMap = makeNormalMap(decodeTexture(*texture), texture->name, options, warn);
+    const auto useOf = [](const GltfMaterial& m) { return std::pair(m.normal->scale, m.normal->isClamped); };
+    warnOfDifferences(materials, *texture, "the scale of their normals or how they wrap", useOf, warn);
 }
 
 /// Looks change no shape: where a picture cannot be used, that is said, and the object is drawn without it.
@@ -68,14 +84,27 @@ void takeOrWarn(const Warn& warn, const Take& take) {
     }
 }
 
+/// Warns of textures, which nothing of the object says where to put.
+void warnOfNoTexCoords(const std::vector<GltfMaterial>& materials, const ObjectDesc& desc, const Warn& warn) {
+    for (const GltfMaterial& m : materials) {
+        const std::optional<GltfTexture>& texture = m.normal ? m.normal : m.baseColor;
+        if (!texture) continue;
+        warn(fmt::format("{}: material {} has a texture, and the faces have no texture coordinates (TEXCOORD_0): it is "
+                         "drawn without that texture",
+                         desc.cage, m.name.empty() ? "without a name" : m.name));
+        return;
+    }
+}
+
 } // namespace
 
 void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const Warn& warn) {
     const std::string extension = lowerExtension(desc.cage);
     const bool isGltf = extension == ".gltf" || extension == ".glb";
     const bool wantsColors = desc.material.albedo.empty(), wantsNormals = desc.material.normalMap.path.empty();
-    if (!isGltf || !object.cage.hasTexCoords() || (!wantsColors && !wantsNormals)) return;
+    if (!isGltf || (!wantsColors && !wantsNormals)) return;
     const std::vector<GltfMaterial> materials = readGltfMaterials(desc.cage, warn);
+    if (!object.cage.hasTexCoords()) return warnOfNoTexCoords(materials, desc, warn);
     if (wantsColors) takeOrWarn(warn, [&] { takeColors(object, materials, warn); });
     if (wantsNormals) takeOrWarn(warn, [&] { takeNormals(object, materials, desc, warn); });
 }

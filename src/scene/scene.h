@@ -98,6 +98,7 @@ struct LoadedObject {
     std::unique_ptr<Animation> animation; ///< null for a cage that nothing moves
     std::vector<vec3> restPositions;      ///< of the cage, where load() has posed it; else empty
     std::optional<DenseMesh> dense;       ///< instead of a surface, where the polygons are drawn themselves
+    std::vector<vec3> denseRest;          ///< positions of `dense` at rest, where there is a height function
     SurfaceOptions options;
     Surface surface;
     std::optional<HeightMap> height; ///< as the device reads it
@@ -116,7 +117,7 @@ struct LoadedObject {
     [[nodiscard]] const HeightMap* heightMap() const {
         return height && (detail == Detail::displacement || detail == Detail::both) ? &*height : nullptr;
     }
-    /// The function that moves the surface or bends its normals, or null.
+    /// The function that moves the surface, or bends its normals, or both; or null.
     [[nodiscard]] const FunctionHeights* functionHeights() const {
         return function && detail != Detail::none ? &*function : nullptr;
     }

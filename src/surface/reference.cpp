@@ -158,6 +158,7 @@ int ReferenceSurface::faceCount() const { return parts_->tables.patches->GetNumP
 
 int ReferenceSurface::sideCount() const { return parts_->sideCount; }
 
+bool ReferenceSurface::hasTexCoords() const { return !parts_->texPoints.empty(); }
 bool ReferenceSurface::isHole(int face) const { return !parts_->find(face, dvec2(0)); }
 
 bool ReferenceSurface::isApproximate(int face, const dvec2& uv) const {

@@ -123,6 +123,7 @@ public:
 
     [[nodiscard]] int faceCount() const; ///< ptex faces, holes included
     [[nodiscard]] int sideCount() const;
+    [[nodiscard]] bool hasTexCoords() const;
     [[nodiscard]] bool isHole(int face) const;
     /// True when (u,v) falls in an end cap at an extraordinary vertex, where the patch only approximates the surface.
     [[nodiscard]] bool isApproximate(int face, const dvec2& uv) const;

@@ -16,7 +16,6 @@ constexpr std::uint32_t kTileSamples = 1024; ///< of the insides of faces: enoug
 /// the samples of a tile are to leave kMostFunctionTurns for each evaluation.
 constexpr std::uint32_t kFunctionTileSamples = 64;
 constexpr std::uint64_t kVertexBytes = 32; ///< position and height, normal
-constexpr std::uint64_t kTexGradientBytes = 32;
 
 std::uint32_t packed(std::uint32_t low, std::uint32_t high) { return low | high << 16; }
 
@@ -201,14 +200,20 @@ Dicer::~Dicer() = default;
 
 namespace {
 
-std::uint64_t byteCountOf(const Work& work, const DiceOptions& options) {
-    const std::uint64_t vertexBytes = kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) +
-                                      (options.wantsTexGradients ? kTexGradientBytes : 0);
+/// Bytes of gradients per vertex.
+std::uint64_t gradientBytes(const SurfaceModel& model, const DiceOptions& options) {
+    if (!options.wantsTexGradients) return 0;
+    return sizeof(vec4) * (model.functionBendsNormals ? kRestGradientTexels : kGradientTexels);
+}
+
+std::uint64_t byteCountOf(const SurfaceModel& model, const Work& work, const DiceOptions& options) {
+    const std::uint64_t vertexBytes =
+        kVertexBytes + (options.wantsTexCoords ? sizeof(vec2) : 0) + gradientBytes(model, options);
     return work.vertexCount * vertexBytes + work.triangleCount * 12;
 }
 
 /// The buffers of a mesh, not written yet, and what is known of it beforehand.
-DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& options) {
+DicedMesh allocateMesh(Device& device, const SurfaceModel& model, const Work& work, const DiceOptions& options) {
     constexpr VkBufferUsageFlags usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     // Texture coordinates are an empty table where nothing reads them.
     DicedMesh mesh;
@@ -220,11 +225,10 @@ DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& opti
                                  .bytes = options.wantsTexCoords ? work.vertexCount * sizeof(vec2) : 0,
                                  .usage = usage},
                                 VK_FORMAT_R32G32_SFLOAT);
-    mesh.texGradients = makeTexels(device,
-                                   {.name = "diced texture gradients",
-                                    .bytes = options.wantsTexGradients ? work.vertexCount * kTexGradientBytes : 0,
-                                    .usage = usage},
-                                   VK_FORMAT_R32G32B32A32_SFLOAT);
+    mesh.texGradients = makeTexels(
+        device,
+        {.name = "diced texture gradients", .bytes = work.vertexCount * gradientBytes(model, options), .usage = usage},
+        VK_FORMAT_R32G32B32A32_SFLOAT);
     mesh.indices = makeIndices(device, work.triangleCount * 3);
 
     // Known before anything is diced.
@@ -235,7 +239,7 @@ DicedMesh allocateMesh(Device& device, const Work& work, const DiceOptions& opti
     mesh.vertexCount = std::uint32_t(work.vertexCount);
     mesh.triangleCount = std::uint32_t(work.triangleCount);
     mesh.maxRate = work.maxRate;
-    mesh.byteCount = byteCountOf(work, options);
+    mesh.byteCount = byteCountOf(model, work, options);
     mesh.hasTexCoords = options.wantsTexCoords;
     return mesh;
 }
@@ -266,8 +270,8 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     // What there is to do, and whether the memory allowed holds it.
     const DiceTable& table = tableOf(model);
     const Work work = WorkBuilder(model, table, rates).build();
-    checkMemory(device, byteCountOf(work, options), work, options.memory);
-    DicedMesh mesh = allocateMesh(device, work, options);
+    checkMemory(device, byteCountOf(model, work, options), work, options.memory);
+    DicedMesh mesh = allocateMesh(device, model, work, options);
     if (options.wantsFaces) mesh.faces = facePushes(table, model, rates, work.runFirsts, work.firstInsides);
 
     // What the shaders read.
@@ -299,6 +303,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
     constants.hasTexGradients = options.wantsTexGradients;
+    constants.hasSlopes = options.wantsTexGradients && model.functionBendsNormals;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
     Passes passes = passesOf(work, table, firstRing, firstCell);

@@ -121,7 +121,7 @@ std::uint64_t dicedTriangles(std::span<const std::uint32_t> sideRates);
 struct DicedMesh {
     TexelBuffer vertices;                      ///< two texels each: position and height, normal
     TexelBuffer texCoords;                     ///< empty unless asked for
-    TexelBuffer texGradients;                  ///< two texels each, see shaders/varyings.glsl; empty unless asked for
+    TexelBuffer texGradients;                  ///< as kBindMeshTexGradients; empty unless asked for
     TexelBuffer indices;                       ///< three 32-bit indices per triangle, face after face
     std::vector<std::uint32_t> firstTriangles; ///< of each face; one more at the end
     std::vector<std::uint32_t> faceRates;      ///< the largest around each face

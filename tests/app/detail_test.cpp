@@ -83,6 +83,16 @@ TEST_F(DetailOption, needsTextureCoordinatesOnTriangles) {
     expectRefused(render(path("mapped.obj"), "--height @map.exr"), Failure::usage, {"mapped.obj", "--detail bump"});
 }
 
+TEST_F(DetailOption, saysSoWhereThereAreNoHeights) {
+    for (const char* detail : {"bump", "both"}) {
+        const Outcome outcome = relief({"render", cagePath("torus"), "--detail", detail, "-o", path("x.png")},
+                                       "--rate 4 --size 16,16 --no-shadows");
+        EXPECT_EQ(outcome.exitCode, 0);
+        EXPECT_TRUE(contains(outcome.err, std::string("--detail ") + detail + " shows nothing without heights"))
+            << outcome.err;
+    }
+}
+
 TEST_F(DetailOption, comparesTechniquesSideBySide) {
     const std::string map = "--height @map.exr --scale 0.03 ";
     const Outcome outcome = render(cagePath("torus"), map + "--compare bump,displacement,both --json");
@@ -99,6 +109,14 @@ TEST_F(DetailOption, comparesTechniquesSideBySide) {
     EXPECT_EQ(reports[0]["detail"], "bump");
     EXPECT_EQ(reports[2]["detail"], "both");
     EXPECT_GT(reports[2]["frame_ms"], 0);
+    // Slopes are 4 bytes per texel, mips included.
+    EXPECT_GT(reports[0]["map_bytes"].get<int>(), 4 * 128 * 128);
+    EXPECT_EQ(reports[2]["map_bytes"].get<int>(),
+              reports[0]["map_bytes"].get<int>() + reports[1]["map_bytes"].get<int>());
+    expectDone(relief(
+        {"render", cagePath("torus"), "--height", path("map.exr"), "--compare", "bump, none", "-o", path("y.png")},
+        "-q --rate 8 --size 64,64"));
+    EXPECT_EQ(readImage(path("y.png")).width, 2 * 64 + 4);
     expectRefused(render(cagePath("torus"), "--compare bump"), Failure::usage, {"--compare", "--height"});
     expectRefused(render(cagePath("torus"), map + "--compare bump,bumps"), Failure::usage, {"bumps"});
     expectRefused(render(cagePath("torus"), map + "--compare bump", "x.exr"), Failure::usage, {".png"});

@@ -144,9 +144,55 @@ TEST_F(FunctionOption, bendsNormalsWhereTheSurfaceStays) {
     }
 }
 
-TEST_F(FunctionOption, doesNotBendWhatMoves) {
-    expectRefused(render("golf", "--detail both"), Failure::usage, {"--detail both"});
-    expectRefused(render("golf", "--detail bump --deform twist(axis=y,angle=9)"), Failure::usage, {"nothing moves"});
+// --detail both shades what the triangles cannot follow, on a cage that moves and on one that stands.
+TEST_F(FunctionOption, bendsNormalsOfWhatMoves) {
+    for (const std::string motion : {"", "--deform twist(axis=y,angle=60) "}) {
+        const auto draw = [&](const std::string& more) {
+            const std::string picture = target("moved.exr");
+            expectDone(
+                relief({"render", cagePath("torus"), "--height-function", "golf", "-o", picture},
+                       "-q --size 128,128 --distance 5 --look-at 0,0,0 --no-shadows --show normal " + motion + more));
+            return readImage(picture);
+        };
+        const Image fine = draw("--rate 128 --path grid"), coarse = draw("--rate 8 --path grid");
+        const Image both = draw("--detail both --rate 8 --path grid");
+        EXPECT_LT(meanDifference(both, fine), 0.6 * meanDifference(coarse, fine)) << motion;
+        // Bump keeps the outline of the cage's pose.
+        const Image bump = draw("--detail bump --rate 16"), none = draw("--detail none --rate 16");
+        for (std::size_t i = 3; i < none.texels.size(); i += 4) ASSERT_EQ(bump.texels[i], none.texels[i]) << motion;
+        EXPECT_GT(meanDifference(bump, none), 0.01) << motion;
+    }
+}
+
+TEST_F(FunctionOption, bendsNormalsOfPlainTriangles) {
+    const std::string mesh = target("mesh.obj");
+    expectDone(relief({"export", cagePath("torus"), "-o", mesh}, "-q --rate 16"));
+    const auto draw = [&](const std::string& object, const std::string& more) {
+        const std::string picture = target("mesh.exr");
+        expectDone(relief({"render", object, "--height-function", "golf", "-o", picture},
+                          "-q --size 128,128 --distance 5 --look-at 0,0,0 --no-shadows --show normal " + more));
+        return readImage(picture);
+    };
+    const Image cage = draw(cagePath("torus"), "--detail bump --rate 16"), none = draw(mesh, "--detail none");
+    EXPECT_LT(meanDifference(draw(mesh, "--detail bump"), cage), 0.1 * meanDifference(none, cage));
+    // What moves the triangles takes the dimples along.
+    expectDone(
+        relief({"animate", mesh, "--height-function", "golf", "-o", target("m.{frame:4}.exr")},
+               "-q --size 128,128 --distance 5 --look-at 0,0,0 --no-shadows --show normal --detail bump --frames 0:1 "
+               "--fps 1 --deform twist(axis=y,angle=20*t)"));
+    EXPECT_LT(meanDifference(readImage(target("m.0000.exr")), cage), 0.1 * meanDifference(none, cage));
+    const Image posed = draw(mesh, "--detail bump --deform twist(axis=y,angle=20)");
+    EXPECT_LT(meanDifference(readImage(target("m.0001.exr")), posed), 1e-4);
+    expectRefused(render("golf", "", mesh), Failure::usage, {"--detail bump"});
+}
+
+TEST_F(FunctionOption, isReportedByInfoAndRefusedByBench) {
+    const auto report = jsonOf(relief({"info", cagePath("torus"), "--height-function", "golf"}, "--json"))[0];
+    EXPECT_EQ(report["height_function"], "golf");
+    EXPECT_NEAR(report["displacement_bound"].get<double>(), 0.03, 1e-6);
+    EXPECT_EQ(report["seam_disagreement_max"].get<double>(), 0);
+    expectRefused(relief({"bench", "frame", "--height-function", "golf"}), Failure::usage, {"--height-function golf"});
+    expectRefused(render("gulf"), Failure::file, {"gulf", "fractal, golf, waves"});
 }
 
 // --- bounds

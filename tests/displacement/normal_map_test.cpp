@@ -36,11 +36,13 @@ NormalMap make(const Image& picture, const NormalOptions& options = {}, const Wa
     return makeNormalMap(picture, "picture", options, warn);
 }
 
-/// The chunk sRGB behind the header of a PNG (8 bytes of signature, 25 of IHDR).
-void tagSrgb(const std::string& path) {
-    using namespace std::string_literals;
+/// Chunks that follow the header of a PNG (8 bytes of signature, 25 of IHDR).
+using namespace std::string_literals;
+const std::string kSrgbChunk = "\0\0\0\1sRGB\0\xae\xce\x1c\xe9"s;
+const std::string kGammaChunk = "\0\0\0\4gAMA\0\0\xb1\x8f\x0b\xfc\x61\x05"s; // 1 / 2.2
+void addChunk(const std::string& path, const std::string& chunk) {
     std::string bytes = readFile(path);
-    bytes.insert(33, "\0\0\0\1sRGB\0\xae\xce\x1c\xe9"s);
+    bytes.insert(33, chunk);
     putFile(path, bytes);
 }
 
@@ -142,11 +144,17 @@ TEST(LoadNormalMap, neverDecodesColors) {
     const std::string plain = folder / "plain.png", tagged = folder / "tagged.png";
     writeImage(plain, pictureOf(2, 2, codes()), SampleType::uint8);
     writeImage(tagged, pictureOf(2, 2, codes()), SampleType::uint8);
-    tagSrgb(tagged);
+    addChunk(tagged, kSrgbChunk);
     Warnings warnings;
     EXPECT_EQ(loadNormalMap(plain, {}, warnings.warn()).normals, loadNormalMap(tagged, {}, warnings.warn()).normals);
     ASSERT_EQ(warnings.lines.size(), 1u);
     EXPECT_TRUE(warnings.has("tagged.png: the file says that its numbers are colors (sRGB)"));
+    // ImageMagick gives a gamma to every PNG.
+    warnings.lines.clear();
+    addChunk(plain, kGammaChunk);
+    EXPECT_EQ(readImageInfo(plain).colorTag, "gamma 2.2");
+    EXPECT_EQ(loadNormalMap(plain, {}, warnings.warn()).normals, loadNormalMap(tagged, {}).normals);
+    EXPECT_TRUE(warnings.lines.empty()) << warnings.lines.front();
 }
 
 TEST(LoadNormalMap, checksTheHeaderFirst) {

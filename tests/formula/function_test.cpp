@@ -5,15 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "formula/formula.h"
+#include "on_device.h"
 #include "support.h"
 
 namespace relief::test {
 namespace {
-
-Device& device() {
-    static Device instance;
-    return instance;
-}
 
 /// Every test has a cache of its own.
 class HeightFunctions : public ::testing::Test {
@@ -168,7 +164,8 @@ TEST_F(HeightFunctions, withAMistakeNameItsLine) {
     EXPECT_TRUE(startsWith(errorOf("/* a\n comment */ float twice(float x) { return 2.0 * x; }\n"
                                    "float height(vec3 p, vec2 st, float t) { return twice(st); }\n"),
                            "bumps.glsl:3: 'twice' : "));
-    EXPECT_TRUE(startsWith(errorOf("float height(vec3 p, vec2 st, float t) {\n    return p.x;\n"), "bumps.glsl:3: "));
+    EXPECT_TRUE(startsWith(errorOf("float height(vec3 p, vec2 st, float t) {\n    return p.x;\n"),
+                           "bumps.glsl:1: '{' is not "));
     for (const char* text : {"", "float heights(vec3 p, vec2 st, float t) { return p.x; }", "const float height = 1.0;",
                              "// float height(vec3 p, vec2 st, float t) { return p.x; }"})
         EXPECT_EQ(errorOf(text), "bumps.glsl: there is no function float height(vec3 p, vec2 st, float t)") << text;
@@ -202,7 +199,8 @@ TEST_F(HeightFunctions, mayNotHaveStateUncountedLoopsOrLargeArrays) {
     EXPECT_TRUE(startsWith(errorOfLine("float f() { float a[20000]; return a[3]; }"), "bumps.glsl:1: an array"));
     std::string sum = "float f(float x) { return x";
     for (int i = 0; i < 2000; ++i) sum += "+sin(x*" + std::to_string(i) + ".0)";
-    EXPECT_NE(errorOf(sum + "; }\nfloat height(vec3 p, vec2 st, float t) { return f(p.x); }").find("words of SPIR-V"), std::string::npos);
+    EXPECT_NE(errorOf(sum + "; }\nfloat height(vec3 p, vec2 st, float t) { return f(p.x); }").find("words of SPIR-V"),
+              std::string::npos);
 }
 
 TEST_F(HeightFunctions, ofAFileMayHaveAMarkAndMustBeShort) {

@@ -11,6 +11,15 @@ inline SurfaceSampler& sampler() {
     return instance;
 }
 
+/// A picture of a cage as it stands, seen from somewhere.
+inline RenderOptions optionsFor(const Cage& cage, const CameraOptions& from = {}) {
+    RenderOptions options;
+    const std::vector<dvec3> points(cage.positions.begin(), cage.positions.end());
+    for (const dvec3& p : points) options.bounds.add(p);
+    options.camera = frameCamera(points, from, 1);
+    return options;
+}
+
 /// Smooth, tileable, both signs: `waves` periods each way of the given amplitude in cage units.
 inline HeightMap sineMap(int side, double amplitude, int waves = 2) {
     std::vector<float> texels(std::size_t(side) * std::size_t(side));

@@ -24,10 +24,7 @@ std::vector<LayeredCage> layeredCages() {
 }
 
 RenderOptions layerOptions(const Cage& cage, Spacing spacing) {
-    RenderOptions options;
-    std::vector<dvec3> points(cage.positions.begin(), cage.positions.end());
-    for (const dvec3& p : points) options.bounds.add(p);
-    options.camera = frameCamera(points, {.azimuth = 31, .elevation = 23}, 1);
+    RenderOptions options = optionsFor(cage, {.azimuth = 31, .elevation = 23});
     options.path = Path::dice;
     options.edgePixels = 17;
     options.spacing = spacing;

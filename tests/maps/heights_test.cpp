@@ -213,7 +213,7 @@ TEST(HeightsOfNormals, refuseNormalsThatNoHeightHas) {
     map.normals[9] = vec3(0, 0, -1);
     expectFailure(Failure::input, {"map: 2 of 16 normals", "column 2, row 1"}, [&] { integrate(map); });
     map.space = NormalSpace::object;
-    expectFailure(Failure::input, {"map: ", "tangent space"}, [&] { integrate(map); });
+    expectFailure(Failure::usage, {"map: ", "tangent space"}, [&] { integrate(map); });
 }
 
 } // namespace

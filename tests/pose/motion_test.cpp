@@ -17,10 +17,7 @@ std::vector<vec3> moved(const std::vector<vec3>& positions, const mat3& turn, co
     return all;
 }
 
-Camera cameraFor(const Cage& cage) {
-    std::vector<dvec3> points(cage.positions.begin(), cage.positions.end());
-    return frameCamera(points, {}, 1);
-}
+Camera cameraFor(const Cage& cage) { return optionsFor(cage).camera; }
 
 constexpr int kSide = 96;
 

@@ -103,12 +103,47 @@ TEST_F(GltfTextures, thatCannotBeDecodedAreWarnedOf) {
     EXPECT_TRUE(warnings_.has("drawn without that texture"));
 }
 
+// What a second material does otherwise with the same textures is said: there is one of each per object.
+TEST_F(GltfTextures, thatMaterialsUseInOtherWaysAreThoseOfTheFirst) {
+    GltfFile file = plane();
+    Json second = file.json["meshes"][0]["primitives"][0];
+    second["material"] = 1;
+    file.json["meshes"][0]["primitives"].push_back(second);
+    file.json["materials"].push_back(file.json["materials"][0]);
+    loadFile(file);
+    EXPECT_TRUE(warnings_.lines.empty()) << warnings_.lines.front();
+    file.json["materials"][0]["name"] = "skin";
+    file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 1};
+    file.json["materials"][1]["normalTexture"]["scale"] = 2;
+    const LoadedObject object = loadFile(file);
+    EXPECT_EQ(object.textureColor.value(), vec3(0.5f, 0.25f, 1));
+    EXPECT_LT(glm::length(object.normalMap.value().normals[60] - glm::normalize(kTilted)), 0.01f);
+    ASSERT_EQ(warnings_.lines.size(), 2u);
+    EXPECT_TRUE(warnings_.has("a.glb: images/0: its 2 materials differ in baseColorFactor"));
+    EXPECT_TRUE(warnings_.has("a.glb: images/1: its 2 materials differ in the scale of their normals"));
+    EXPECT_TRUE(warnings_.has("that of the first one, skin, is taken"));
+}
+
 TEST_F(GltfTextures, needTextureCoordinates) {
     GltfFile file = plane();
     file.attributes().erase("TEXCOORD_0");
     const LoadedObject object = loadFile(file);
     EXPECT_FALSE(object.albedo || object.normalMap);
-    EXPECT_TRUE(warnings_.lines.empty()) << warnings_.lines.front();
+    ASSERT_EQ(warnings_.lines.size(), 1u);
+    EXPECT_TRUE(warnings_.has("no texture coordinates (TEXCOORD_0)"));
+}
+
+TEST_F(GltfTextures, onFacesWithoutAreaInTheTextureAreWarnedOf) {
+    GltfFile file = plane();
+    file.attributes()["TEXCOORD_0"] =
+        file.add(std::vector<vec2>{{0, 1}, {1, 1}, {0.5f, 0.5f}, {0, 0}, {1, 0}, {0.5f, 0.5f}});
+    loadFile(file);
+    ASSERT_EQ(warnings_.lines.size(), 1u);
+    EXPECT_TRUE(warnings_.has("the texture coordinates of 1 of 4 faces span no area")) << warnings_.lines[0];
+    file.json["materials"][0].erase("normalTexture");
+    warnings_.lines.clear();
+    loadFile(file);
+    EXPECT_TRUE(warnings_.lines.empty()) << "colors need no direction";
 }
 
 } // namespace

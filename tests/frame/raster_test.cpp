@@ -1,0 +1,361 @@
+// The compute rasterizer against double precision, against the device's fixed function, and against itself.
+#include <random>
+
+#include "device.h"
+#include "meshes.h"
+#include "support.h"
+
+namespace relief::test {
+namespace {
+
+constexpr int kRasterSide = 128;
+constexpr int kSubpixels = 256;
+
+class Raster : public OnDevice {
+protected:
+    void SetUp() override {
+        OnDevice::SetUp();
+        if (!device().traits().hasLongAtomics) GTEST_SKIP() << "no 64-bit atomics";
+    }
+};
+
+Renderer& rasterRenderer() {
+    static Renderer instance(device(), {.width = kRasterSide, .height = kRasterSide, .shadowSide = 64});
+    return instance;
+}
+
+/// A view in which float arithmetic is exact: from the origin along -z, with x / w from -1 to 1 across the picture.
+RenderOptions exactView(relief::Raster raster) {
+    RenderOptions options;
+    options.camera = {
+        .eye = {0, 0, 0}, .target = {0, 0, -1}, .fieldOfView = 90, .nearDistance = 0.5, .farDistance = 64};
+    options.bounds.add(dvec3(-1, -1, -8));
+    options.bounds.add(dvec3(1, 1, -1));
+    options.lighting.castsShadows = false;
+    options.raster = raster;
+    return options;
+}
+
+/// A vertex at a place of the picture, in 1/256 of a pixel, at a distance that is a power of two.
+vec3 vertexAt(const ivec2& place, float w) {
+    const float unit = 2.0f / (kSubpixels * kRasterSide);
+    return {w * (unit * float(place.x) - 1), w * (1 - unit * float(place.y)), -w};
+}
+
+DenseMesh meshOf(const std::vector<vec3>& positions, const std::vector<std::uint32_t>& indices,
+                 const vec3& normal = {0, 0, 1}) {
+    DenseMesh mesh;
+    mesh.positions = positions;
+    mesh.normals.assign(positions.size(), normal);
+    mesh.indices = indices;
+    return mesh;
+}
+
+// --- coverage
+// ---------------------------------------------------------------------------------------------------------
+
+using Place = glm::i64vec2;
+
+std::int64_t edgeAt(const Place& a, const Place& b, const Place& p) {
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/// Adds 1 for a front face, or takes it away for a back face, at pixels whose centre a triangle covers by the top-left
+/// rule.
+void addTriangle(Place a, Place b, Place c, std::vector<int>& sums) {
+    std::int64_t area = edgeAt(a, b, c);
+    if (area == 0) return;
+    const int sign = area < 0 ? 1 : -1; // counter-clockwise as seen, with y down
+    if (area < 0) std::swap(b, c);
+    const auto covers = [](const Place& from, const Place& to, const Place& p) {
+        const std::int64_t e = edgeAt(from, to, p);
+        const bool isTopOrLeft = to.y < from.y || (to.y == from.y && to.x > from.x);
+        return e > 0 || (e == 0 && isTopOrLeft);
+    };
+    const auto pixel = [](std::int64_t x) { return int(std::clamp<std::int64_t>(x / kSubpixels, 0, kRasterSide - 1)); };
+    for (int y = pixel(std::min({a.y, b.y, c.y})); y <= pixel(std::max({a.y, b.y, c.y})); ++y)
+        for (int x = pixel(std::min({a.x, b.x, c.x})); x <= pixel(std::max({a.x, b.x, c.x})); ++x) {
+            const Place p(kSubpixels * x + kSubpixels / 2, kSubpixels * y + kSubpixels / 2);
+            if (covers(a, b, p) && covers(b, c, p) && covers(c, a, p)) sums[std::size_t(y * kRasterSide + x)] += sign;
+        }
+}
+
+/// Places of random triangles: pixel-sized ones, slivers, large ones, and ones with corners at centres of pixels.
+std::vector<ivec2> randomPlaces(int triangleCount, std::mt19937& random) {
+    const auto within = [&](int low, int high) { return std::uniform_int_distribution(low, high)(random); };
+    std::vector<ivec2> places;
+    for (int t = 0; t < triangleCount; ++t) {
+        const ivec2 middle(within(-4000, kSubpixels * kRasterSide + 4000),
+                           within(-4000, kSubpixels * kRasterSide + 4000));
+        const int kind = t % 8, size = kind == 0 && t % 256 == 0 ? 100000 : kind == 1 ? 5000 : 400;
+        for (int k = 0; k < 3; ++k) {
+            ivec2 place = middle + ivec2(within(-size, size), within(-size, size));
+            if (kind == 2) place.y = middle.y + place.y % 3; // a sliver
+            if (kind == 3) place = place / kSubpixels * kSubpixels + kSubpixels / 2;
+            if (kind == 4 && k > 0) place = places.back() + ivec2(within(-1, 1), within(-1, 1));
+            places.push_back(place);
+        }
+    }
+    return places;
+}
+
+TEST_F(Raster, coversWhatATriangleCoversByTheTopLeftRule) {
+#ifdef __SANITIZE_ADDRESS__
+    constexpr int kTriangles = 50000;
+#else
+    constexpr int kTriangles = 1000000;
+#endif
+    std::mt19937 random(1);
+    const std::vector<ivec2> places = randomPlaces(kTriangles, random);
+    std::vector<vec3> positions;
+    std::vector<std::uint32_t> indices;
+    std::vector<int> expected(std::size_t(kRasterSide) * kRasterSide);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        positions.push_back(vertexAt(places[i], float(1 << random() % 4)));
+        indices.push_back(std::uint32_t(i));
+        if (i % 3 == 2) addTriangle(places[i - 2], places[i - 1], places[i], expected);
+    }
+    const DenseMesh mesh = meshOf(positions, indices);
+    const MeshModel model(device(), {.mesh = &mesh});
+    const std::vector<int> found = rasterRenderer().countCrossings(model, exactView(relief::Raster::compute));
+    ASSERT_GT(std::ranges::count_if(expected, [](int sum) { return sum != 0; }), kRasterSide * kRasterSide / 2);
+    EXPECT_EQ(found, expected);
+}
+
+/// Cuts at the near plane and projects, in double precision.
+std::vector<dvec2> clippedAndProjected(const dvec3 corners[3], double nearDistance) {
+    std::vector<dvec2> result;
+    const auto add = [&](const dvec3& p) {
+        result.push_back(double(kSubpixels * kRasterSide) * (0.5 * dvec2(p.x, -p.y) / -p.z + 0.5));
+    };
+    for (int i = 0; i < 3; ++i) {
+        const dvec3 &from = corners[i], &to = corners[(i + 1) % 3];
+        const double a = -from.z - nearDistance, b = -to.z - nearDistance;
+        if (a >= 0) add(from);
+        if ((a >= 0) != (b >= 0)) add(from + a / (a - b) * (to - from));
+    }
+    return result;
+}
+
+/// Corners that clipping makes are rounded otherwise in single precision: a pixel may differ where an edge passes its
+/// centre closely.
+TEST_F(Raster, clipsTrianglesThatPassTheEye) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<double> coordinate(-3, 3), distance(-4, 6);
+    const RenderOptions options = exactView(relief::Raster::compute);
+    std::vector<vec3> positions;
+    std::vector<std::uint32_t> indices;
+    std::vector<int> expected(std::size_t(kRasterSide) * kRasterSide);
+    int cutCount = 0;
+    for (int t = 0; t < 200; ++t) {
+        dvec3 corners[3];
+        for (dvec3& corner : corners) {
+            positions.emplace_back(coordinate(random), coordinate(random), -distance(random));
+            indices.push_back(std::uint32_t(indices.size()));
+            corner = dvec3(positions.back());
+        }
+        const std::vector<dvec2> polygon = clippedAndProjected(corners, options.camera.nearDistance);
+        const auto place = [&](std::size_t i) { return Place(glm::round(polygon[i])); };
+        for (std::size_t k = 2; k < polygon.size(); ++k) addTriangle(place(0), place(k - 1), place(k), expected);
+        cutCount += polygon.size() == 4 || (polygon.size() == 3 && dvec2(Place(polygon[0])) == polygon[0]) ? 1 : 0;
+    }
+    ASSERT_GT(cutCount, 30);
+    const DenseMesh mesh = meshOf(positions, indices);
+    const MeshModel model(device(), {.mesh = &mesh});
+    const std::vector<int> found = rasterRenderer().countCrossings(model, options);
+    int different = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) different += found[i] != expected[i] ? 1 : 0;
+    EXPECT_LT(different, kRasterSide * kRasterSide / 100);
+}
+
+TEST_F(Raster, leavesNoCracksInClosedSurfaces) {
+    const HeightMap map = sineMap(64, 0.1, 3);
+    int surfaceCount = 0;
+    for (const NamedCage& named : allCages()) {
+        const Surface surface = buildSurface(named.cage, {.isolation = 2});
+        if (!enclosesVolume(surface)) continue;
+        ++surfaceCount;
+        const SurfaceModel model(device(),
+                                 {.surface = &surface, .cagePositions = named.cage.positions, .height = &map});
+        const std::vector<dvec3> points(named.cage.positions.begin(), named.cage.positions.end());
+        for (const int rate : {3, 8}) {
+            RenderOptions options;
+            options.path = Path::dice;
+            options.rate = rate;
+            options.raster = relief::Raster::compute;
+            options.camera = frameCamera(points, {.azimuth = 31.0 * rate}, 1);
+            options.bounds = computeBounds(named.cage.positions);
+            EXPECT_EQ(rasterRenderer().crackPixels(model, options, vec3(0)), 0u) << named.name << " at rate " << rate;
+        }
+    }
+    EXPECT_GT(surfaceCount, 8);
+}
+
+// --- which sample is kept
+// ---------------------------------------------------------------------------------------------
+
+/// Triangles at the same places and depths with different normals: the order in which they arrive must not show.
+TEST_F(Raster, isTheSameInEveryOrder) {
+    std::mt19937 random(3);
+    std::vector<vec3> positions, normals;
+    std::vector<std::uint32_t> indices;
+    for (const ivec2& place : randomPlaces(3000, random)) positions.push_back(vertexAt(place, 2));
+    DenseMesh mesh;
+    for (int copy = 0; copy < 3; ++copy)
+        for (const vec3& p : positions) {
+            mesh.positions.push_back(p);
+            mesh.normals.push_back(glm::normalize(vec3(copy - 1, 0.5f, 1)));
+        }
+    for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.indices.push_back(i);
+    RenderOptions options = exactView(relief::Raster::compute);
+    options.show = Show::normal;
+    const auto draw = [&] {
+        const MeshModel model(device(), {.mesh = &mesh});
+        return rasterRenderer().render(model, options).halves;
+    };
+    const std::vector<std::uint16_t> first = draw();
+    EXPECT_EQ(draw(), first);
+    std::vector<std::uint32_t> reversed;
+    for (std::size_t t = mesh.indices.size(); t > 0; t -= 3)
+        reversed.insert(reversed.end(), {mesh.indices[t - 3], mesh.indices[t - 2], mesh.indices[t - 1]});
+    mesh.indices = reversed;
+    EXPECT_EQ(draw(), first);
+}
+
+// --- pictures
+// ---------------------------------------------------------------------------------------------------------
+
+/// A displaced ball with a color map.
+struct Scene {
+    Cage cage = torusWithSeams();
+    HeightMap map = sineMap(64, 0.1, 3);
+    Image albedo = makeAlbedo();
+    Surface surface = buildSurface(cage, {.isolation = 3});
+    SurfaceModel model{device(),
+                       {.surface = &surface, .cagePositions = cage.positions, .height = &map, .albedo = &albedo}};
+    SurfaceModel plain{device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map}};
+    SurfaceModel bent{device(), {.surface = &surface, .cagePositions = cage.positions, .bump = &map}};
+
+    static Image makeAlbedo() {
+        Image image{32, 32, 3, {}};
+        for (int i = 0; i < 32 * 32; ++i)
+            for (int c = 0; c < 3; ++c) image.texels.push_back(0.2f + 0.1f * float((i / 4 + i / 128 * 3 + c) % 7));
+        return image;
+    }
+};
+
+Scene& scene() {
+    static Scene instance;
+    return instance;
+}
+
+RenderOptions sceneOptions(const Cage& cage, relief::Raster raster) {
+    RenderOptions options;
+    options.path = Path::dice;
+    options.rate = 12;
+    const std::vector<dvec3> points(cage.positions.begin(), cage.positions.end());
+    options.camera = frameCamera(points, {.azimuth = 20, .elevation = 50}, 1);
+    options.bounds = computeBounds(cage.positions);
+    options.raster = raster;
+    return options;
+}
+
+/// Each pixel the mean of 4 x 4.
+Image reduced(const Image& large) {
+    Image small{large.width / 4, large.height / 4, large.channels, {}};
+    for (int y = 0; y < small.height; ++y)
+        for (int x = 0; x < small.width; ++x)
+            for (int c = 0; c < small.channels; ++c) {
+                float sum = 0;
+                for (int k = 0; k < 16; ++k) sum += large.at(4 * x + k % 4, 4 * y + k / 4)[std::size_t(c)];
+                small.texels.push_back(sum / 16);
+            }
+    return small;
+}
+
+double rmsDifference(const Image& a, const Image& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.texels.size(); ++i) {
+        const double d = std::min(a.texels[i], 2.0f) - std::min(b.texels[i], 2.0f);
+        sum += d * d;
+    }
+    return std::sqrt(sum / double(a.texels.size()));
+}
+
+/// The fixed function evaluates fragments at centres of pixels, outside of triangles that only touch the pixel; ours
+/// evaluates samples where they are. It must be as near to a picture of sixteen times as many pixels.
+TEST_F(Raster, isAsNearToALargePictureAsTheFixedFunction) {
+    Renderer large(device(), {.width = 4 * kRasterSide, .height = 4 * kRasterSide, .shadowSide = 64});
+    const auto compare = [&](const SurfaceModel& model, Show show, const std::string& name) {
+        RenderOptions options = sceneOptions(scene().cage, relief::Raster::hardware);
+        options.show = show;
+        options.lighting.castsShadows = false;
+        const Image reference = reduced(large.render(model, options).image());
+        const Image hardware = rasterRenderer().render(model, options).image();
+        options.raster = relief::Raster::compute;
+        const Picture picture = rasterRenderer().render(model, options);
+        ASSERT_EQ(int(picture.stats.raster), int(relief::Raster::compute));
+        const Image compute = picture.image();
+        EXPECT_LT(rmsDifference(compute, reference), 1.02 * rmsDifference(hardware, reference)) << name;
+        // Coverage is the fixed function's, sample by sample.
+        std::size_t different = 0;
+        for (std::size_t i = 3; i < compute.texels.size(); i += 4) different += compute.texels[i] != hardware.texels[i];
+        EXPECT_EQ(different, 0u) << name;
+    };
+    compare(scene().plain, Show::shaded, "plain");
+    compare(scene().model, Show::shaded, "color map");
+    compare(scene().bent, Show::shaded, "bump");
+    for (const auto& [show, name] : {std::pair(Show::normal, "normal"), std::pair(Show::height, "height"),
+                                     std::pair(Show::rate, "rate"), std::pair(Show::faces, "faces")})
+        compare(scene().model, show, name);
+}
+
+TEST_F(Raster, castsTheShadowsOfTheFixedFunction) {
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::hardware);
+    options.lighting.keyElevation = 15;
+    Renderer renderer(device(), {.width = kRasterSide, .height = kRasterSide, .shadowSide = 512});
+    const Image hardware = renderer.render(scene().plain, options).image();
+    options.raster = relief::Raster::compute;
+    const Image compute = renderer.render(scene().plain, options).image();
+    options.lighting.castsShadows = false;
+    const double without = rmsDifference(renderer.render(scene().plain, options).image(), compute);
+    EXPECT_GT(without, 0.02);
+    EXPECT_LT(rmsDifference(hardware, compute), without / 4);
+}
+
+TEST_F(Raster, drawsSeveralInstancesEachInItsMaterial) {
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::hardware);
+    mat4 aside(1);
+    aside[3] = {0.6f, 0.4f, 0.3f, 1};
+    const Instance two[] = {{scene().plain, {.albedo = vec3(0.8f, 0.1f, 0.1f)}},
+                            {scene().model, {.albedo = vec3(0.2f, 0.9f, 0.3f), .roughness = 0.9f}, aside}};
+    const Image hardware = rasterRenderer().render(two, options).image();
+    options.raster = relief::Raster::compute;
+    const Image compute = rasterRenderer().render(two, options).image();
+    EXPECT_LT(rmsDifference(hardware, compute), 0.03);
+    EXPECT_GT(rmsDifference(rasterRenderer().render(two[0], options).image(), compute), 0.1);
+}
+
+TEST_F(Raster, isRefusedWhereItCannotDraw) {
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
+    options.path = Path::grid;
+    expectFailure(Failure::usage, {"compute rasterizer", "--path dice"},
+                  [&] { rasterRenderer().render(scene().plain, options); });
+    options.path = Path::dice;
+    options.show = Show::wireframe;
+    expectFailure(Failure::usage, {"compute rasterizer", "lines"},
+                  [&] { rasterRenderer().render(scene().plain, options); });
+}
+
+/// By default small triangles are drawn by the way that is faster on the device, and large ones by the fixed function.
+TEST_F(Raster, isChosenForSmallTriangles) {
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::automatic);
+    const auto chosen = [&] { return int(rasterRenderer().render(scene().plain, options).stats.raster); };
+    const bool isFaster = device().traits().rastersFasterInCompute;
+    EXPECT_EQ(chosen(), int(isFaster ? relief::Raster::compute : relief::Raster::hardware));
+    options.rate = 2;
+    EXPECT_EQ(chosen(), int(relief::Raster::hardware));
+}
+
+} // namespace
+} // namespace relief::test
