@@ -52,11 +52,6 @@ PathChoice choosePath(const DeviceTraits& traits) {
     return {Path::grid, "it has no tessellation shaders"};
 }
 
-bool isCutShort(const TriangleOptions& options, const DeviceTraits& traits, std::uint32_t maxRate) {
-    if (options.path != Path::tessellation || options.rate) return false;
-    return maxRate >= std::min(traits.maxTessellationLevel, kTessellatorLimit) / 2 * 2;
-}
-
 std::vector<Path> listCapturablePaths(const DeviceTraits& traits) {
     std::vector<Path> paths;
     if (!traits.evaluatesInVertexStages) return {Path::dice};

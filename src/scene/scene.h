@@ -240,9 +240,6 @@ struct PathChoice {
 };
 /// What pictures are drawn by where no path is asked for.
 PathChoice choosePath(const DeviceTraits& traits);
-/// Whether edges of a picture with rates of up to `maxRate` have as many segments as the tessellator makes, so that
-/// segments may be longer than TriangleOptions::edgePixels asks for. Other paths make up to 1024.
-bool isCutShort(const TriangleOptions& options, const DeviceTraits& traits, std::uint32_t maxRate);
 /// Paths whose triangles a Capturer can read back.
 std::vector<Path> listCapturablePaths(const DeviceTraits& traits);
 /// How shaders read tables and maps: "texel buffers of up to 134217728 elements".

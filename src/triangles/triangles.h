@@ -19,8 +19,6 @@ DenseMesh denseMesh(const ReferenceSurface& surface, const HeightMap* map, int r
 enum class Path { tessellation, grid, dice }; ///< ways to make the triangles; dense meshes have their own
 enum class Spacing { equal, fractional };
 
-constexpr std::uint32_t kTessellatorLimit = 64; ///< most segments per edge of Path::tessellation, on any device
-
 struct TriangleOptions {
     Path path = Path::tessellation;
     std::optional<int> rate; ///< segments per cage edge, the same for all ...
@@ -69,6 +67,10 @@ private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
+
+/// Whether rates of up to `maxRate` are the tessellator's limit, so that segments may be longer than edgePixels asks for.
+/// The other paths make up to 1024 segments.
+bool isCutShort(const TriangleOptions& options, const DeviceTraits& traits, std::uint32_t maxRate);
 
 /// Segments around and inside a face.
 struct FaceSegments {
