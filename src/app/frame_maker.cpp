@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <malloc.h>
 
@@ -51,7 +52,7 @@ std::vector<int> listFrames(const AnimationArgs& args, const Animation* animatio
     return parseFrames(fmt::format("{}:{}", int(std::ceil(range.x - 1e-6)), int(std::floor(range.y + 1e-6))));
 }
 
-FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args) {
+FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args), warn_(warn) {
     const ObjectDesc& desc = args.scene.object;
     loaded_ = load(args.scene, CageState::atRest, warn);
     LoadedObject& object = loaded_.object;
@@ -168,7 +169,12 @@ DrawnFrame FrameMaker::draw(int frame) {
     const MotionDesc& motion = args_.scene.object.motion;
     std::visit([&](auto& model) { model.setTime(toSeconds(frame, motion), toSeconds(frame - 1, motion)); }, *model_);
     const Material material = makeMaterial(args_.scene.object.material, loaded_.object.textureColor);
-    drawn.picture = renderer_->render(Instance(*model_, material), optionsAt(frame));
+    RenderOptions options = optionsAt(frame);
+    drawn.picture = drawPicture(*renderer_, Instance(*model_, material), options, args_.picture, *device_);
+    const auto warnOnce = [this](const std::string& line) {
+        if (!std::exchange(hasWarned_, true)) warn_(line);
+    };
+    warnOfLongSegments(options, *device_, drawn.picture.stats, warnOnce);
     return drawn;
 }
 

@@ -52,6 +52,8 @@ private:
     void posePolygons(int frame, DrawnFrame& drawn);
 
     const AnimationArgs& args_;
+    Warn warn_;
+    bool hasWarned_ = false; ///< of long segments, in any frame
     std::vector<int> frames_;
     LoadedScene loaded_;
     CameraOptions camera_;                   ///< holds all poses; in the object's coordinates

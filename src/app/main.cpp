@@ -7,6 +7,7 @@
 #include <new>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -17,6 +18,7 @@
 #include "app/help.h"
 #include "app/memory.h"
 #include "app/output.h"
+#include "base/base.h"
 
 namespace {
 
@@ -45,6 +47,20 @@ int fault(Failure failure, const std::string& line) {
     return int(failure);
 }
 
+/// Whether the words name a picture that is read or written by the library of pictures: not only the PNG that is drawn.
+bool needsImages(const std::vector<std::string>& words) {
+    const auto isPicture = [](const std::string& word) {
+        for (const std::string_view extension : {".exr", ".tif", ".tiff", ".hdr", ".jpg", ".jpeg", ".png"})
+            if (word.ends_with(extension)) return true;
+        return false;
+    };
+    for (std::size_t i = 1; i < words.size(); ++i) {
+        const bool isDrawn = words[i].ends_with(".png") && words[i - 1] == "-o";
+        if (words[i] == "--compare" || (isPicture(words[i]) && !isDrawn)) return true;
+    }
+    return false;
+}
+
 int run(std::vector<std::string> words) {
     CLI::App app("Renders, animates, exports, certifies and measures displaced subdivision surfaces.", "relief");
     app.formatter(std::make_shared<app::HelpFormatter>());
@@ -71,6 +87,8 @@ int run(std::vector<std::string> words) {
         const std::string hint = app::explainMistake(app, words, verbs);
         return fault(Failure::usage, hint.empty() ? error.what() : hint);
     }
+    std::jthread images;
+    if (needsImages(words)) images = prepareImages();
     const int code = chosen();
     app::finishStdout();
     return code;

@@ -168,7 +168,8 @@ void addDevice(CLI::App& app, std::string& name) {
 }
 
 void addPicture(CLI::App& app, SceneDesc& scene, PictureArgs& picture) {
-    addPath(app, picture.triangles.path, "tessellation, or grid where the device has no tessellation shaders");
+    addPath(app, picture.triangles.path,
+            "the fastest one of the device, which relief info --devices names; dice where that makes too few segments");
     addTriangles(app, picture.triangles.options);
     listIn("triangles", "RASTER",
            addEnum(app, "--raster", picture.raster, kRasters, "what makes samples of triangles"));
@@ -201,6 +202,21 @@ RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene
     options.lighting = makeLighting(scene.lighting, scene.camera.azimuth, nullptr);
     options.unit = object.coordinates().unit;
     return options;
+}
+
+Picture drawPicture(Renderer& renderer, const Instance& instance, RenderOptions& options, const PictureArgs& args,
+                    const Device& device) {
+    Picture picture = renderer.render(instance, options);
+    if (args.triangles.path || !isCutShort(options, device.traits(), picture.stats.maxRate)) return picture;
+    options.path = Path::dice;
+    return renderer.render(instance, options);
+}
+
+void warnOfLongSegments(const RenderOptions& options, const Device& device, const FrameStats& stats, const Warn& warn) {
+    if (!isCutShort(options, device.traits(), stats.maxRate)) return;
+    warn(fmt::format("--path tessellation makes {} segments per edge at most, so some are longer than the {} pixels of "
+                     "--edge-pixels; --path dice makes up to 1024",
+                     stats.maxRate, options.edgePixels));
 }
 
 void checkFilter(const PictureArgs& args, const Device& device, const Warn& warn) {

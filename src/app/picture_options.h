@@ -40,6 +40,12 @@ TriangleOptions toTriangleOptions(const TriangleArgs& args, const Device& device
 RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene, const LoadedObject& object,
                               const Device& device);
 
+/// Draws a picture. Where no path was asked for and that of `options` makes too few segments, it becomes dicing.
+Picture drawPicture(Renderer& renderer, const Instance& instance, RenderOptions& options, const PictureArgs& args,
+                    const Device& device);
+/// Warns where segments of a picture that was drawn may be longer than was asked for.
+void warnOfLongSegments(const RenderOptions& options, const Device& device, const FrameStats& stats, const Warn& warn);
+
 /// Warns of more anisotropy than the device has; throws Failure::device where it has none.
 void checkFilter(const PictureArgs& args, const Device& device, const Warn& warn);
 

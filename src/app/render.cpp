@@ -157,7 +157,8 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     const ivec2& size = args.scene.size;
     Renderer renderer(device, {.width = size.x, .height = size.y});
     device.startPeak();
-    drawn.picture = renderer.render(Instance(model, material), options);
+    drawn.picture = drawPicture(renderer, Instance(model, material), options, args.picture, device);
+    warnOfLongSegments(options, device, drawn.picture.stats, warn);
     // The first frame compiles shaders: times that are compared are those of a second one.
     if (!args.compared.empty()) drawn.picture = renderer.render(Instance(model, material), options);
     drawn.peakDeviceBytes = device.peakBytes();

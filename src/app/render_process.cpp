@@ -20,7 +20,10 @@ namespace {
 /// The child's side of a fork: stdout goes into a file, then the program takes the place of this one.
 [[noreturn]] void becomeProgram(std::vector<std::string>& words, const std::string& output, bool usesShaderCache) {
     prctl(PR_SET_PDEATHSIG, SIGKILL); // an interrupt ends both
-    if (!usesShaderCache) setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+    if (!usesShaderCache) {
+        setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
+        setenv("RELIEF_CACHE", "0", 1);
+    }
     const int file = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     if (file < 0 || dup2(file, STDOUT_FILENO) < 0) _exit(127);
     std::vector<char*> arguments;

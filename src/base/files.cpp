@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -36,6 +37,11 @@ void checkRegular(const std::string& path, const struct stat& status) {
     if (!S_ISREG(status.st_mode))
         fail(Failure::file, "{}: cannot be read: it is a {}; only regular files are read, so write it into one first",
              path, kindOf(status.st_mode));
+}
+
+std::string folderOf(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && value[0] == '/' ? value : "";
 }
 
 } // namespace
@@ -89,6 +95,15 @@ std::string readFile(const std::string& path, std::uint64_t limit) {
         bytes.append(step.data(), count);
     }
     return bytes;
+}
+
+std::string cacheFolder() {
+    const char* choice = std::getenv("RELIEF_CACHE");
+    if (choice != nullptr && std::string_view(choice) == "0") return "";
+    if (const std::string folder = folderOf("RELIEF_CACHE"); !folder.empty()) return folder;
+    if (const std::string cache = folderOf("XDG_CACHE_HOME"); !cache.empty()) return cache + "/relief";
+    const std::string home = folderOf("HOME");
+    return home.empty() ? "" : home + "/.cache/relief";
 }
 
 } // namespace relief

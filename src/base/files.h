@@ -50,6 +50,10 @@ void checkWritable(const std::string& path);
 /// Writes `bytes` as the file `path`, whole or not at all. Throws Failure::file when writing fails.
 void writeFile(const std::string& path, std::string_view bytes);
 
+/// The folder of what may be made again, such as compiled shaders: $RELIEF_CACHE, else relief in $XDG_CACHE_HOME or in
+/// $HOME/.cache. Empty where RELIEF_CACHE is 0 or none of them is set to an absolute path. It need not exist.
+std::string cacheFolder();
+
 /// A file or folder that is removed, with all that is in it, at the end of the scope or by an interrupt before.
 class Temporary {
 public:

@@ -1,26 +1,11 @@
 // Writing pictures, whole or not at all.
 #include "base/base.h"
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include "base/pictures/module.h"
+#include "base/png_write.h"
 
 namespace relief {
 
 namespace {
-
-OIIO::TypeDesc sampleDesc(SampleType sample) {
-    switch (sample) {
-    case SampleType::uint8: return OIIO::TypeDesc::UINT8;
-    case SampleType::uint16: return OIIO::TypeDesc::UINT16;
-    case SampleType::half: return OIIO::TypeDesc::HALF;
-    case SampleType::real: return OIIO::TypeDesc::FLOAT;
-    }
-    fail(Failure::internal, "sample type {} does not exist", int(sample));
-}
 
 bool isInteger(SampleType sample) { return sample == SampleType::uint8 || sample == SampleType::uint16; }
 
@@ -46,47 +31,19 @@ void checkShape(const std::string& path, const Image& image) {
              image.channels, image.texels.size());
 }
 
-/// The nearest codes, halves upwards; what is below 0 or no number becomes 0, what is above 1 the largest code.
-template <typename Code>
-bool writeCodes(OIIO::ImageOutput& output, OIIO::TypeDesc type, const std::vector<float>& texels) {
-    constexpr auto kLargest = float(std::numeric_limits<Code>::max());
-    std::vector<Code> codes(texels.size());
-    std::transform(texels.begin(), texels.end(), codes.begin(),
-                   [](float x) { return x > 0 ? Code(std::floor(kLargest * std::min(x, 1.0f) + 0.5f)) : Code(0); });
-    return output.write_image(type, codes.data());
-}
-
-/// Integers are rounded here, so that a picture is the same file with every build of OpenImageIO.
-bool writeTexels(OIIO::ImageOutput& output, const Image& image) {
-    const OIIO::TypeDesc sample = output.spec().format;
-    if (sample == OIIO::TypeDesc::UINT8) return writeCodes<std::uint8_t>(output, sample, image.texels);
-    if (sample == OIIO::TypeDesc::UINT16) return writeCodes<std::uint16_t>(output, sample, image.texels);
-    return output.write_image(OIIO::TypeFloat, image.texels.data());
-}
-
-void encode(const std::string& path, const Image& image, const std::string& format, OIIO::ImageSpec spec) {
+void encode(const std::string& path, const Image& image, const ImageEncoding& encoding) {
     checkShape(path, image);
-    spec.attribute("DateTime", "2000:01:01 00:00:00"); // else the hour of writing: equal pictures must be equal files
-    spec.attribute("oiio:UnassociatedAlpha", 1);       // otherwise colours are divided by alpha on the way out
-    spec.attribute("tiff:write_exif", 0);              // it would be read back, and memory output cannot be read
-
-    // Into memory first: the PNG writer does not notice a full disk, TIFF and EXR miss their last block.
-    std::vector<unsigned char> encoded;
-    OIIO::Filesystem::IOVecOutput memory(encoded);
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);
-    if (!output || !output->supports("ioproxy") || !output->set_ioproxy(&memory))
-        fail(Failure::internal, "OpenImageIO has no {} writer into memory: {}", format, OIIO::geterror());
-    const bool isWritten = output->open(path, spec) && writeTexels(*output, image);
-    if (!output->close() || !isWritten || output->has_error())
-        fail(Failure::file, "{}: cannot be written as {}: {}", path, format, output->geterror());
+    const std::vector<unsigned char> encoded = imageModule().encodeImage(path, image, encoding);
     writeFile(path, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});
 }
 
 } // namespace
 
-void writeImage(const std::string& path, const Image& image, SampleType sample) {
-    encode(path, image, chooseFormat(path, sample),
-           OIIO::ImageSpec(image.width, image.height, image.channels, sampleDesc(sample)));
+void writeImage(const std::string& path, const Image& image, SampleType sample, const std::string& compression) {
+    const std::string format = chooseFormat(path, sample);
+    if (format != "png") return encode(path, image, {format, sample, {}, compression});
+    checkShape(path, image);
+    writeFile(path, encodePng(path, image, sample));
 }
 
 void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels) {
@@ -94,13 +51,7 @@ void writeImage(const std::string& path, const Image& image, const std::vector<I
     if (format != "openexr") fail(Failure::usage, "{}: channels of their own names are written as .exr", path);
     if (channels.size() != std::size_t(image.channels))
         fail(Failure::internal, "{}: {} names for {} channels", path, channels.size(), image.channels);
-    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::FLOAT);
-    spec.channelnames.clear();
-    for (const ImageChannel& channel : channels) {
-        spec.channelnames.push_back(channel.name);
-        spec.channelformats.push_back(sampleDesc(channel.sample));
-    }
-    encode(path, image, format, spec);
+    encode(path, image, {format, SampleType::real, channels, ""});
 }
 
 } // namespace relief

@@ -1,4 +1,5 @@
-// Images on disk: PNG, TIFF, EXR, HDR and JPEG in; PNG, TIFF and EXR out.
+// Images on disk: PNG, TIFF, EXR, HDR and JPEG in; PNG, TIFF and EXR out. All but writing PNG needs a shared library,
+// which the first of these functions that needs it loads: Failure::internal where it is not found.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +9,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 namespace relief {
+
+// --- the library
+// ------------------------------------------------------------------------------------------------------
+
+/// Loads the shared library of pictures in a thread of its own, so that the first picture need not wait for it. Nothing
+/// is reported: where it cannot be loaded, whoever needs a picture says so.
+[[nodiscard]] std::jthread prepareImages();
 
 // --- headers ------------------------------------------------------------------------------------------------------
 
@@ -109,9 +118,10 @@ enum class SampleType { uint8, uint16, half, real };
 /// Writes PNG, TIFF or EXR by the extension of `path`, whole or not at all.
 /// Values are written as they are; for integer samples they are clamped to 0..1.
 /// PNG holds integers, EXR half and real, TIFF all of them (half is stored as real).
-/// Throws Failure::usage for an unknown extension or a sample type that the format does not have, Failure::file when
-/// writing fails.
-void writeImage(const std::string& path, const Image& image, SampleType sample);
+/// `compression`: "zip", "piz" and others of EXR, "zip", "lzw" and others of TIFF; empty: the format's own choice. PNG
+/// has one. Throws Failure::usage for an unknown extension or a sample type that the format does not have,
+/// Failure::file when writing fails.
+void writeImage(const std::string& path, const Image& image, SampleType sample, const std::string& compression = "");
 
 /// One channel of an EXR: its name, which may hold the layer's ("N.X"), and half or real samples.
 struct ImageChannel {

@@ -41,11 +41,6 @@ Header headerOf(const Digest& digest, std::span<const std::uint32_t> words) {
 
 std::string pathOf(const Digest& digest) { return shaderCacheFolder() + "/" + digest.name() + ".spv"; }
 
-std::string folderOf(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && value[0] == '/' ? value : "";
-}
-
 } // namespace
 
 Digest makeDigest() { return {kOffsets[0], kOffsets[1]}; }
@@ -60,14 +55,7 @@ void Digest::add(std::string_view text) {
 
 std::string Digest::name() const { return fmt::format("{:016x}{:016x}", halves[0], halves[1]); }
 
-std::string shaderCacheFolder() {
-    const char* choice = std::getenv("RELIEF_CACHE");
-    if (choice != nullptr && std::string_view(choice) == "0") return "";
-    if (const std::string folder = folderOf("RELIEF_CACHE"); !folder.empty()) return folder;
-    if (const std::string cache = folderOf("XDG_CACHE_HOME"); !cache.empty()) return cache + "/relief";
-    const std::string home = folderOf("HOME");
-    return home.empty() ? "" : home + "/.cache/relief";
-}
+std::string shaderCacheFolder() { return cacheFolder(); }
 
 std::optional<std::vector<std::uint32_t>> readCachedShader(const Digest& digest) {
     if (shaderCacheFolder().empty()) return {};

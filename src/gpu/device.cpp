@@ -4,6 +4,7 @@
 #include "gpu/descriptor_pools.h"
 #include "gpu/device_memory.h"
 #include "gpu/physical.h"
+#include "gpu/pipeline_cache.h"
 #include "gpu/uploads.h"
 
 namespace relief {
@@ -55,6 +56,7 @@ Device::Device(const DeviceDesc& desc) {
         memory_ = std::make_unique<DeviceMemory>(*this);
         uploads_ = std::make_unique<PendingUploads>(*this);
         descriptorPools_ = std::make_unique<DescriptorPools>(*this);
+        pipelineCache_ = std::make_unique<PipelineCache>(device_, physical_);
     } catch (...) {
         destroy();
         throw;
@@ -66,6 +68,7 @@ Device::~Device() { destroy(); }
 void Device::destroy() {
     if (uploads_ != nullptr) uploads_->clear();
     uploads_.reset();
+    pipelineCache_.reset();
     descriptorPools_.reset();
     memory_.reset();
     if (device_ != VK_NULL_HANDLE) {

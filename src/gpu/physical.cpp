@@ -164,6 +164,7 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
         traits.tessellatedVerticesPerDraw = kLavapipeVerticesPerDraw;
         traits.meshTrianglesInFlight = kLavapipeTrianglesInFlight;
         traits.rastersFasterInCompute = traits.hasLongAtomics;
+        traits.dicesFaster = true;
         traits.evaluatesInVertexStages = traits.readsTablesAs == TableAccess::texelBuffers;
     }
     return traits;

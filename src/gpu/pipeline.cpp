@@ -1,4 +1,5 @@
 #include "gpu/gpu.h"
+#include "gpu/pipeline_cache.h"
 
 namespace relief {
 namespace {
@@ -137,7 +138,7 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     info.pDynamicState = &dynamic;
     info.layout = pipeline.layout.get();
     VkPipeline handle = VK_NULL_HANDLE;
-    checkVulkan(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &handle),
+    checkVulkan(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache().handle(), 1, &info, nullptr, &handle),
                 "vkCreateGraphicsPipelines");
     own(device, pipeline, handle, desc.name);
     return pipeline;
@@ -153,7 +154,7 @@ Pipeline makeCompute(Device& device, const ComputeDesc& desc) {
     info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), constants);
     info.layout = pipeline.layout.get();
     VkPipeline handle = VK_NULL_HANDLE;
-    checkVulkan(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &info, nullptr, &handle),
+    checkVulkan(vkCreateComputePipelines(device.handle(), device.pipelineCache().handle(), 1, &info, nullptr, &handle),
                 "vkCreateComputePipelines");
     own(device, pipeline, handle, desc.name);
     return pipeline;

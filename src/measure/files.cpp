@@ -1,6 +1,5 @@
 #include <filesystem>
 
-#include <OpenImageIO/imageio.h>
 #include <unistd.h>
 
 #include "measure/suite.h"
@@ -9,20 +8,16 @@ namespace relief {
 namespace {
 
 /// Writes the map as an image file and returns its size. An empty `compression` is the format's own choice.
-std::uint64_t measureFile(const HeightMap& map, const std::string& file, const OIIO::TypeDesc& type,
+std::uint64_t measureFile(const HeightMap& map, const std::string& file, SampleType sample,
                           const std::string& compression) {
     const ScratchFolder folder;
     const std::string path = folder / file;
-    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(path);
-    OIIO::ImageSpec spec(map.width, map.height, 1, type);
-    if (!compression.empty()) spec.attribute("compression", compression);
+    Image image{map.width, map.height, 1, map.texels};
     // Integer files hold 0..1: the range of the map.
-    std::vector<float> texels = map.texels;
     const float range = map.highest > map.lowest ? map.highest - map.lowest : 1;
-    if (!type.is_floating_point())
-        for (float& texel : texels) texel = (texel - map.lowest) / range;
-    if (!out || !out->open(path, spec) || !out->write_image(OIIO::TypeFloat, texels.data()) || !out->close())
-        fail(Failure::file, "{}: cannot be written: {}", path, out ? out->geterror() : OIIO::geterror());
+    if (sample == SampleType::uint8 || sample == SampleType::uint16)
+        for (float& texel : image.texels) texel = (texel - map.lowest) / range;
+    writeImage(path, image, sample, compression);
     return std::filesystem::file_size(path);
 }
 
@@ -39,12 +34,12 @@ std::vector<MapFile> measureMapFiles(const HeightMap& map, MapFormat format) {
     switch (format) {
     case MapFormat::real:
     case MapFormat::half: {
-        const OIIO::TypeDesc type = format == MapFormat::real ? OIIO::TypeFloat : OIIO::TypeHalf;
+        const SampleType type = format == MapFormat::real ? SampleType::real : SampleType::half;
         return {{Metric::mapFileExrZip, measureFile(map, "map.exr", type, "zip")},
                 {Metric::mapFileExrPiz, measureFile(map, "map.exr", type, "piz")}};
     }
-    case MapFormat::unorm16: return {{Metric::mapFilePng, measureFile(map, "map.png", OIIO::TypeUInt16, "")}};
-    case MapFormat::unorm8: return {{Metric::mapFilePng, measureFile(map, "map.png", OIIO::TypeUInt8, "")}};
+    case MapFormat::unorm16: return {{Metric::mapFilePng, measureFile(map, "map.png", SampleType::uint16, "")}};
+    case MapFormat::unorm8: return {{Metric::mapFilePng, measureFile(map, "map.png", SampleType::uint8, "")}};
     case MapFormat::bc4:
         return {{Metric::mapFileBlocks, std::uint64_t((map.width + 3) / 4) * std::uint64_t((map.height + 3) / 4) * 8}};
     }

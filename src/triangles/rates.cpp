@@ -16,7 +16,12 @@ struct EdgeFootprint {
 namespace {
 
 constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
-constexpr std::uint32_t kTessellatorLimit = 64;
+
+/// Most segments per edge of hardware tessellation: an even number.
+std::uint32_t tessellatorLimit(const DeviceTraits& traits) {
+    constexpr std::uint32_t kMost = 64; // on any device
+    return std::min(traits.maxTessellationLevel, kMost) / 2 * 2;
+}
 
 std::uint32_t rateLimit(const DeviceTraits& traits, const TriangleOptions& options) {
     if (options.path != Path::dice && !traits.evaluatesInVertexStages)
@@ -25,7 +30,7 @@ std::uint32_t rateLimit(const DeviceTraits& traits, const TriangleOptions& optio
     if (options.path != Path::tessellation) return kRateLimit;
     if (!traits.hasTessellation)
         fail(Failure::usage, "{} has no tessellation shaders; use --path grid or dice", traits.name);
-    return std::min(traits.maxTessellationLevel, kTessellatorLimit) / 2 * 2;
+    return tessellatorLimit(traits);
 }
 
 /// The corner where a side starts.
@@ -36,6 +41,10 @@ std::uint32_t cornerOf(const SurfaceModel& model, std::uint32_t sideEntry) {
 }
 
 } // namespace
+
+bool isCutShort(const TriangleOptions& options, const DeviceTraits& traits, std::uint32_t maxRate) {
+    return options.path == Path::tessellation && !options.rate && maxRate >= tessellatorLimit(traits);
+}
 
 std::uint32_t EdgeRates::segments(std::uint32_t edge) const {
     return formulas::segmentsOf(rates[edge], spacing == Spacing::fractional ? 1 : 0);

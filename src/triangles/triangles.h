@@ -68,6 +68,10 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
+/// Whether rates of up to `maxRate` are the tessellator's limit, so that segments may be longer than edgePixels asks for.
+/// The other paths make up to 1024 segments.
+bool isCutShort(const TriangleOptions& options, const DeviceTraits& traits, std::uint32_t maxRate);
+
 /// Segments around and inside a face.
 struct FaceSegments {
     std::uint32_t sides[4] = {};

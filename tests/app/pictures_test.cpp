@@ -85,6 +85,16 @@ TEST_F(Drawn, everyPathSupportsBothSpacings) {
     }
 }
 
+TEST_F(Drawn, edgesThatTheTessellatorCutsShortAreWarnedOf) {
+    const std::string more = "--size 64,64 --edge-pixels 0.3 --json --path ";
+    const Outcome named = relief({"render", cagePath("cube"), "-o", folder_ / "a.png"}, more + "tessellation");
+    EXPECT_EQ(nlohmann::json::parse(named.out).at("max_rate"), 64) << named.err;
+    EXPECT_TRUE(contains(named.err, "warning: --path tessellation makes 64 segments")) << named.err;
+    const Outcome diced = relief({"render", cagePath("cube"), "-o", folder_ / "a.png"}, more + "dice");
+    EXPECT_GT(nlohmann::json::parse(diced.out).at("max_rate"), 64);
+    EXPECT_EQ(diced.err, "");
+}
+
 TEST_F(Drawn, negativeAnglesAreAngles) {
     std::vector<std::pair<std::string, Image>> pictures;
     for (const char* options :

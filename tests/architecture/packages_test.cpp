@@ -10,6 +10,7 @@ namespace {
 const std::map<std::string, std::string> kPackageOf = {
     {"OpenSubdivFar", "libosd-dev"},
     {"ImageIO", "libopenimageio-dev"},
+    {"ZLIB", "zlib1g-dev"},
     {"Vulkan", "libvulkan-dev"},
     {"fmt", "libfmt-dev"},
     {"CLI11", "libcli11-dev"},

@@ -321,6 +321,29 @@ TEST(Image, refusesPicturesWithoutPixels) {
     });
 }
 
+TEST(Image, pngHoldsOneToFourChannelsOfAnySize) {
+    const TemporaryFolder folder;
+    for (int channels = 1; channels <= 4; ++channels)
+        for (const auto& [width, height] : {std::pair{1, 1}, {1, 9}, {9, 1}, {300, 200}})
+            for (const SampleType sample : {SampleType::uint8, SampleType::uint16}) {
+                const Image image = noise(width, height, channels);
+                writeImage(folder / "a.png", image, sample);
+                const float step = sample == SampleType::uint8 ? 0.5f / 255 : 0.5f / 65535;
+                EXPECT_LE(largestDifference(readImage(folder / "a.png"), image), 1.001f * step) << channels;
+            }
+    expectFailure(Failure::file, {"a.png", "5"},
+                  [&] { writeImage(folder / "a.png", noise(2, 2, 5), SampleType::uint8); });
+}
+
+TEST(Image, pngIsSmallWherePicturesAreSmooth) {
+    const TemporaryFolder folder;
+    Image image{.width = 256, .height = 256, .channels = 3, .texels = {}};
+    for (int i = 0; i < 256 * 256; ++i)
+        for (int c = 0; c < 3; ++c) image.texels.push_back(float((i % 256) + (i / 256)) / 511);
+    writeImage(folder / "a.png", image, SampleType::uint8);
+    EXPECT_LT(fs::file_size(folder / "a.png"), 256u * 256u * 3 / 4);
+}
+
 TEST(Image, givesEqualFilesForEqualPictures) {
     const TemporaryFolder folder;
     const Image image{2, 2, 1, {0.0F, 0.25F, 0.5F, 1.0F}};

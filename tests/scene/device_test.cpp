@@ -22,6 +22,27 @@ TEST(Devices, drawByGridWithoutTessellationShaders) {
     EXPECT_NE(choosePath(traits).reason.find("no tessellation shaders"), std::string::npos);
 }
 
+TEST(Devices, drawDicedMeshesWhereThatIsFaster) {
+    DeviceTraits traits = ableDevice();
+    traits.dicesFaster = true;
+    EXPECT_EQ(choosePath(traits).path, Path::dice);
+    EXPECT_NE(choosePath(traits).reason.find("measured to be faster"), std::string::npos);
+}
+
+TEST(Devices, cutEdgesShortWhereTheTessellatorEnds) {
+    DeviceTraits traits = ableDevice();
+    traits.maxTessellationLevel = 64;
+    TriangleOptions options{.path = Path::tessellation};
+    EXPECT_FALSE(isCutShort(options, traits, 63));
+    EXPECT_TRUE(isCutShort(options, traits, 64));
+    traits.maxTessellationLevel = 32;
+    EXPECT_TRUE(isCutShort(options, traits, 32));
+    options.rate = 32; // that number was asked for
+    EXPECT_FALSE(isCutShort(options, traits, 32));
+    options = {.path = Path::dice};
+    EXPECT_FALSE(isCutShort(options, traits, 1000));
+}
+
 TEST(Devices, areCertifiedByThePathsThatCanBeReadBack) {
     DeviceTraits traits = ableDevice();
     EXPECT_EQ(listCapturablePaths(traits), (std::vector{Path::tessellation, Path::grid, Path::dice}));

@@ -4,9 +4,9 @@
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
 
-#include "base/base.h"
+#include "base/pictures/module.h"
 
-namespace relief {
+namespace relief::pictures {
 
 bool drawText(Image& image, const std::string& text, int x, int y, int size, float grey) {
     // OpenImageIO looks for a name in a few folders, which are not Debian's.
@@ -22,4 +22,4 @@ bool drawText(Image& image, const std::string& text, int x, int y, int size, flo
     return isDrawn;
 }
 
-} // namespace relief
+} // namespace relief::pictures

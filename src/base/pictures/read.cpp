@@ -1,7 +1,5 @@
 // Reading pictures: OpenImageIO decodes them, but this file decides which of its readers is used and how much memory it
 // may take.
-#include "base/base.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,10 +13,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "base/base.h"
 #include "base/picture_facts.h"
+#include "base/pictures/module.h"
 #include "base/tiff_directory.h"
 
-namespace relief {
+namespace relief::pictures {
 
 namespace {
 
@@ -368,4 +368,4 @@ void readImageRows(const std::string& path, const TakeRows& take, const ImageLim
     readRows(source, 0, source.spec.nchannels, take);
 }
 
-} // namespace relief
+} // namespace relief::pictures
