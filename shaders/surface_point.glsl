@@ -93,10 +93,9 @@ PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsText
     return frames;
 }
 
-SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
-    bool hasTexture = wantsTexture && readsTexCoords();
-    bool hasRest = kReadsRest && wantsTexture && (kHasHeight || kHasTexGradients);
-    PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
+bool readsRest() { return kReadsRest && (kHasHeight || kHasTexGradients); }
+
+SurfacePoint surfacePointOf(PointFrames frames, PatchPoints patchPoints, Leaf leaf, vec2 uv, bool hasTexture, bool hasRest) {
     SurfacePoint point;
     point.frame = frames.surface;
     point.tex = TexFrame(uv, mat2(1.0));
@@ -119,5 +118,10 @@ SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool want
         addStretch(point, frames.rest, restNormal);
     }
     return point;
+}
+
+SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
+    bool hasTexture = wantsTexture && readsTexCoords(), hasRest = wantsTexture && readsRest();
+    return surfacePointOf(evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest), patchPoints, leaf, uv, hasTexture, hasRest);
 }
 #endif

@@ -13,10 +13,16 @@ std::span<const std::byte> bytesOf(const std::vector<T>& array) {
 
 /// A map whose words are more than the device reads from one table is refused before anything is allocated.
 void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) {
-    const std::uint64_t bytes = mapBytes(format, map.width, map.height), most = largestTable(device, 4);
+    const std::uint64_t bytes = mapBytes(format, map.width, map.height), most = largestTable(device, 8);
     if (bytes > most)
         fail(Failure::device, "a height map of {} x {} takes {} with its mips; {} reads {}", map.width, map.height,
              humanBytes(bytes), device.traits().name, humanBytes(most));
+}
+
+/// Shaders read two words at once: there is an even number of them.
+TexelBuffer uploadHeights(Device& device, std::vector<std::uint32_t> words) {
+    words.resize((words.size() + 1) / 2 * 2, 0);
+    return uploadTexels(device, {.name = "height map"}, VK_FORMAT_R32G32_UINT, bytesOf(words));
 }
 
 MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
@@ -89,8 +95,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         checkMapSize(device, *desc.height, encoding.format);
         const MapWords words = toWords(*desc.height, encoding);
-        height = GpuHeightMap{uploadWords(device, "height map", words.words), makeRecord(*desc.height, words),
-                              encoding.format, float(desc.height->heightBound())};
+        height = GpuHeightMap{uploadHeights(device, words.words), makeRecord(*desc.height, words), encoding.format,
+                              float(desc.height->heightBound())};
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
     if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
