@@ -42,6 +42,14 @@ void main() {
 
 #else
 
+// Rates along u and v that samples inside a face are spaced by.
+vec2 ratesInside(uint face) {
+    Face record = fetchFace(face);
+    float rates[kSideCount];
+    for (uint side = 0u; side < kSideCount; ++side) rates[side] = sideRate(record.sides[side]).rate;
+    return vec2(max(rates[0], rates[2]), max(rates[1], rates[3]));
+}
+
 // The coordinate of row or column k of n segments; `rate`: that of the sides along it.
 float insideCoordinate(uint k, uint n, float rate) {
     return inputs.rates.isFractional == 0u ? float(k) / float(n) : sampleParameter(k, n, rate);
@@ -50,11 +58,12 @@ float insideCoordinate(uint k, uint n, float rate) {
 CurveWeights byFaceWeights(CurveWeights c, float k) { return CurveWeights(c.w, k * c.d, k * k * c.dd); }
 
 // The samples of a bicubic patch, column by column: what depends on u alone is evaluated once for all of its samples.
-void diceColumns(InsideTile tile, PatchPoints patchPoints, vec2 rates) {
+void diceColumns(InsideTile tile, PatchPoints patchPoints) {
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ), segments = halvesOf(tile.segments);
     float scale = float(1u << tile.depth);
     vec2 origin = vec2(halvesOf(tile.origin));
     bool hasTexture = readsTexCoords(), hasRest = readsRest();
+    vec2 rates = ratesInside(tile.face);
     vec4 levels = kHasMips ? levelsAt(inputs.rates.firstFaceLevel + tile.face) : vec4(0);
     uint surfaceBoundary = patchPoints.surface.boundary, textureBoundary = patchPoints.texture.boundary;
     for (uint start = 0u; start < size.x;) {
@@ -102,7 +111,7 @@ void main() {
     if (kIsCommon) patchPoints.surface.type = patchPoints.texture.type = kPatchRegular;
     loadTile(patchPoints);
     if (kIsCommon) {
-        diceColumns(tile, patchPoints, vec2(1));
+        diceColumns(tile, patchPoints);
         return;
     }
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);

@@ -223,4 +223,14 @@ DisplacedSample displacedAlone(SurfacePoint point, float level) {
 DisplacedSample displacedInLeaf(PatchPoints patchPoints, Leaf leaf, vec2 uv, float level) {
     return displacedAlone(surfacePoint(patchPoints, leaf, uv, true), level);
 }
+
+#ifndef RELIEF_TRIANGLES
+
+// The same where the patches of the surface and of its texture coordinates are bicubic.
+DisplacedSample displacedInBicubic(PatchPoints patchPoints, Leaf leaf, vec2 uv, float level) {
+    bool hasTexture = readsTexCoords(), hasRest = readsRest();
+    PointFrames frames = evaluateBicubic(patchPoints, leaf, hasTexture, hasRest);
+    return displacedAlone(surfacePointOf(frames, patchPoints, leaf, uv, hasTexture, hasRest), level);
+}
+#endif
 #endif

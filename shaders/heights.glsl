@@ -98,7 +98,8 @@ HeightSample sampleLevel(uint map, vec2 st, uint number) {
 #include "function.glsl"
 #endif
 
-// Between two levels of the map.
+// Between two levels of the map. Both are always read, one after the other and not in a loop: a processor then waits for the
+// memory of both at once.
 HeightSample sampleHeight(vec2 st, float level) {
     uint map = mapAt(st);
     if (!kHasMips) return sampleLevel(map, st, 0u);
@@ -106,14 +107,8 @@ HeightSample sampleHeight(vec2 st, float level) {
     level = clamp(level, 0.0, last);
     float lower = floor(level);
     precise float f = level - lower;
-    HeightSample s = HeightSample(0.0, vec2(0));
-    for (uint i = 0u; i < (f > 0.0 ? 2u : 1u); ++i) {
-        precise float weight = i == 0u ? 1.0 - f : f;
-        HeightSample one = sampleLevel(map, st, uint(lower) + i);
-        precise float h = s.h + weight * one.h;
-        s.h = h;
-        s.gradient += weight * one.gradient;
-    }
-    return s;
+    HeightSample fine = sampleLevel(map, st, uint(lower)), coarse = sampleLevel(map, st, uint(min(lower + 1.0, last)));
+    precise float h = (1.0 - f) * fine.h + f * coarse.h;
+    return HeightSample(h, (1.0 - f) * fine.gradient + f * coarse.gradient);
 }
 #endif
