@@ -19,12 +19,6 @@ void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) 
              humanBytes(bytes), device.traits().name, humanBytes(most));
 }
 
-/// Shaders read two words at once: there is an even number of them.
-TexelBuffer uploadHeights(Device& device, std::vector<std::uint32_t> words) {
-    words.resize((words.size() + 1) / 2 * 2, 0);
-    return uploadTexels(device, {.name = "height map"}, VK_FORMAT_R32G32_UINT, bytesOf(words));
-}
-
 MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
     MapRecord record{};
     record.size = {map.width, map.height};
@@ -95,8 +89,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         checkMapSize(device, *desc.height, encoding.format);
         const MapWords words = toWords(*desc.height, encoding);
-        height = GpuHeightMap{uploadHeights(device, words.words), makeRecord(*desc.height, words), encoding.format,
-                              float(desc.height->heightBound())};
+        height = GpuHeightMap{uploadHeights(device, words, encoding.format, {desc.height->width, desc.height->height}),
+                              makeRecord(*desc.height, words), encoding.format, float(desc.height->heightBound())};
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
     if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};

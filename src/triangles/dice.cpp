@@ -74,17 +74,13 @@ private:
 
     /// The samples of a run in bicubic patches become a piece, the others are listed.
     void splitRun(std::uint32_t run) {
-        const std::uint32_t first = work_.runFirsts[run], edge = table_.runs[run].element;
-        std::uint32_t firstK = 1, endK = 1;
-        const std::uint32_t n = table_.runs[run].isCorner != 0 ? 2 : rates_.segments(edge);
-        if (const BicubicSpan span = table_.bicubicSpans[run]; span.low < span.high) {
-            const auto t = [&](std::uint32_t k) { return formulas::sampleParameter(k, n, rates_.rates[edge]); };
-            while (firstK < n && t(firstK) <= span.low) ++firstK;
-            for (endK = firstK; endK < n && t(endK) < span.high;) ++endK;
-        }
-        if (firstK < endK) work_.pieces.push_back({run, firstK, endK, 0});
+        const std::uint32_t edge = table_.runs[run].element, vertex = work_.runFirsts[run];
+        if (table_.runs[run].isCorner != 0) return work_.otherVertices.push_back(vertex);
+        const std::uint32_t n = rates_.segments(edge);
+        const auto [first, end] = samplesIn(table_.bicubicSpans[run], n, rates_.rates[edge]);
+        if (first < end) work_.pieces.push_back({run, first, end, 0});
         for (std::uint32_t k = 1; k < n; ++k)
-            if (k < firstK || k >= endK) work_.otherVertices.push_back(first + k - 1);
+            if (k < first || k >= end) work_.otherVertices.push_back(vertex + k - 1);
     }
 
     void addFace(std::uint32_t face) {

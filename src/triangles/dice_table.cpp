@@ -1,4 +1,5 @@
 #include "triangles/dice_table.h"
+#include "shared/rates.h"
 #include "triangles/stages.h"
 
 #include <cmath>
@@ -160,6 +161,15 @@ private:
 };
 
 } // namespace
+
+std::pair<std::uint32_t, std::uint32_t> samplesIn(const BicubicSpan& span, std::uint32_t n, float rate) {
+    if (span.low >= span.high) return {1, 1};
+    std::uint32_t first = 1;
+    while (first < n && formulas::sampleParameter(first, n, rate) <= span.low) ++first;
+    std::uint32_t end = first;
+    while (end < n && formulas::sampleParameter(end, n, rate) < span.high) ++end;
+    return {first, end};
+}
 
 DiceTable makeDiceTable(Device& device, const SurfaceModel& model) {
     DiceTable table = TableBuilder(model).build();

@@ -11,6 +11,9 @@ struct BicubicSpan {
     float low = 1, high = 0;
 };
 
+/// The samples of an edge of n segments that lie in a span: the first one, and one past the last.
+std::pair<std::uint32_t, std::uint32_t> samplesIn(const BicubicSpan& span, std::uint32_t n, float rate);
+
 struct DiceTable {
     std::vector<VertexRun> runs; ///< those of corners first
     std::uint32_t cornerRunCount = 0;
