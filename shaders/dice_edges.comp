@@ -4,7 +4,8 @@
 #include "displaced.glsl"
 #include "dice_store.glsl"
 
-// The samples on corners and edges, one invocation per vertex, each evaluated at its owner.
+// The samples on corners and edges, each evaluated at its owner: those of a list, one invocation per vertex; or, in the common
+// case, those of pieces of edges in bicubic patches, one workgroup per piece.
 layout(local_size_x_id = kIdGroupSize) in;
 
 // The run that holds a vertex: corners come first, each a run of one; the others by halving.
@@ -19,9 +20,34 @@ uint runOf(uint vertex) {
     return low;
 }
 
+#ifndef RELIEF_TRIANGLES
+
+void dicePiece(EdgePiece piece) {
+    uint edge = fetchRun(piece.run).element, firstVertex = firstVertexOf(piece.run);
+    Edge record = fetchEdge(edge);
+    float rate = edgeRate(edge), low = cornerLevel(record.corners[0]), high = cornerLevel(record.corners[1]);
+    uint n = segmentsOf(rate, inputs.rates.isFractional);
+    for (uint k = piece.firstK + gl_LocalInvocationID.x; k < piece.endK; k += gl_WorkGroupSize.x) {
+        float t = sampleParameter(k, n, rate);
+        vec2 uv = incidencePoint(record.owner, t);
+        Leaf leaf = findLeaf(record.owner.face, uv);
+        PatchPoints patchPoints = fetchPatch(leaf.patchIndex, inputs.model.pointsNow);
+        storeVertex(firstVertex + k - 1u, displacedInBicubic(patchPoints, leaf, uv, mix(low, high, t)));
+    }
+}
+#endif
+
 void main() {
-    uint vertex = (push.first + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (vertex >= push.count) return;
+#ifndef RELIEF_TRIANGLES
+    if (kIsCommon) {
+        uvec4 a = tileTexel(push.first + gl_WorkGroupID.x);
+        dicePiece(EdgePiece(a.x, a.y, a.z, a.w));
+        return;
+    }
+#endif
+    uint i = (push.first + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (i >= push.count) return;
+    uint vertex = tileTexel(push.list + (i >> 2))[i & 3u];
     uint index = runOf(vertex);
     VertexRun run = fetchRun(index);
     SampleLocation location;

@@ -220,10 +220,9 @@ DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
     return displacedInPose(face, faceUV, location, inputs.model.pointsNow);
 }
 
-// A point inside a face whose leaf is known: what displaced() gives there, without the search.
-DisplacedSample displacedInLeaf(PatchPoints patchPoints, Leaf leaf, vec2 uv, float level) {
+// The sample at a point of one face.
+DisplacedSample displacedAlone(SurfacePoint point, float level) {
     DisplacedSample s;
-    SurfacePoint point = surfacePoint(patchPoints, leaf, uv, true);
     HeightSample height = heightAt(point, level);
     addAttributes(s, point, height);
     s.p = point.frame.p;
@@ -233,4 +232,19 @@ DisplacedSample displacedInLeaf(PatchPoints patchPoints, Leaf leaf, vec2 uv, flo
     s.normal = unitOr(s.normal, s.n);
     return s;
 }
+
+// A point inside a face whose leaf is known: what displaced() gives there, without the search.
+DisplacedSample displacedInLeaf(PatchPoints patchPoints, Leaf leaf, vec2 uv, float level) {
+    return displacedAlone(surfacePoint(patchPoints, leaf, uv, true), level);
+}
+
+#ifndef RELIEF_TRIANGLES
+
+// The same where the patches of the surface and of its texture coordinates are bicubic.
+DisplacedSample displacedInBicubic(PatchPoints patchPoints, Leaf leaf, vec2 uv, float level) {
+    bool hasTexture = readsTexCoords(), hasRest = readsRest();
+    PointFrames frames = evaluateBicubic(patchPoints, leaf, hasTexture, hasRest);
+    return displacedAlone(surfacePointOf(frames, patchPoints, leaf, uv, hasTexture, hasRest), level);
+}
+#endif
 #endif

@@ -11,6 +11,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = kIdShow) const uint kShow = kShowShaded;
 layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
 layout(constant_id = kIdReadsSampleBuffers) const bool kReadsSampleBuffers = false; // else images
+layout(constant_id = kIdReadsShadowCodes) const bool kReadsShadowCodes = false;     // else an image
 layout(constant_id = kIdHasSampleColors) const bool kHasSampleColors = false;       // else all are the material's
 
 layout(set = 0, binding = kBindEnvironment) uniform sampler2D environmentMap; // equirectangular
@@ -56,7 +57,7 @@ float keySpecular(float nl, float nv, float nh, float vh, float roughness, float
 
 // The depth of what the key light meets first, at a place in the shadow map of 0..1 each way.
 float shadowDepth(vec2 at) {
-    if (!kReadsSampleBuffers) return textureLod(shadowMap, at, 0.0).r;
+    if (!kReadsShadowCodes) return textureLod(shadowMap, at, 0.0).r;
     ivec2 texel = clamp(ivec2(floor(at * float(inputs.light.shadowSide))), 0, int(inputs.light.shadowSide) - 1);
     return float(shadowCode(uint(texel.y) * inputs.light.shadowSide + uint(texel.x))) / kShadowCodes;
 }

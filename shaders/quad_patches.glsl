@@ -47,41 +47,69 @@ void regularWeights(vec2 uv, uint boundary, out CurveWeights u, out CurveWeights
     }
 }
 
-LimitFrame regular(ControlPoints points, vec2 uv) {
-    CurveWeights u, v;
-    regularWeights(uv, points.boundary, u, v);
+// What a row of control points adds up to along u, by the point and two derivatives.
+struct RowSums {
+    vec3 x, xu, xuu;
+};
+
+RowSums sumRow(ControlPoints points, uint row, CurveWeights u) {
+    uvec4 i = RELIEF_POINT_ROW(points, row);
+    vec3 a = RELIEF_POINT(points, i.x), b = RELIEF_POINT(points, i.y);
+    vec3 c = RELIEF_POINT(points, i.z), d = RELIEF_POINT(points, i.w);
+    precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
+    precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
+    precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
+    return RowSums(x, xu, xuu);
+}
+
+LimitFrame frameOfRows(RowSums rows[4], CurveWeights v) {
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        uvec4 i = RELIEF_POINT_ROW(points, row);
-        vec3 a = RELIEF_POINT(points, i.x), b = RELIEF_POINT(points, i.y);
-        vec3 c = RELIEF_POINT(points, i.z), d = RELIEF_POINT(points, i.w);
-        precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
-        precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
-        precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
-        f.p += v.w[row] * x;
-        f.pu += v.w[row] * xu;
-        f.pv += v.d[row] * x;
-        f.puu += v.w[row] * xuu;
-        f.puv += v.d[row] * xu;
-        f.pvv += v.dd[row] * x;
+        f.p += v.w[row] * rows[row].x;
+        f.pu += v.w[row] * rows[row].xu;
+        f.pv += v.d[row] * rows[row].x;
+        f.puu += v.w[row] * rows[row].xuu;
+        f.puv += v.d[row] * rows[row].xu;
+        f.pvv += v.dd[row] * rows[row].x;
     }
     return f;
 }
 
+LimitFrame regular(ControlPoints points, vec2 uv) {
+    CurveWeights u, v;
+    regularWeights(uv, points.boundary, u, v);
+    RowSums rows[4];
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) rows[row] = sumRow(points, row, u);
+    return frameOfRows(rows, v);
+}
+
 // The frame of the texture coordinates on such a patch: two components, first derivatives.
+struct TexRowSums {
+    vec2 x, xu;
+};
+
+TexRowSums sumTexRow(ControlPoints points, uint row, CurveWeights u) {
+    uvec4 i = RELIEF_POINT_ROW(points, row);
+    vec2 a = RELIEF_TEX_POINT(i.x), b = RELIEF_TEX_POINT(i.y), c = RELIEF_TEX_POINT(i.z), d = RELIEF_TEX_POINT(i.w);
+    return TexRowSums(u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d, u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d);
+}
+
+LimitFrame texFrameOfRows(TexRowSums rows[4], CurveWeights v) {
+    vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
+        st += v.w[row] * rows[row].x;
+        su += v.w[row] * rows[row].xu;
+        sv += v.d[row] * rows[row].x;
+    }
+    return LimitFrame(vec3(st, 0), vec3(su, 0), vec3(sv, 0), vec3(0), vec3(0), vec3(0));
+}
+
 LimitFrame regularTexture(ControlPoints points, vec2 uv) {
     CurveWeights u, v;
     regularWeights(uv, points.boundary, u, v);
-    vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
-    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        uvec4 i = RELIEF_POINT_ROW(points, row);
-        vec2 a = RELIEF_TEX_POINT(i.x), b = RELIEF_TEX_POINT(i.y), c = RELIEF_TEX_POINT(i.z), d = RELIEF_TEX_POINT(i.w);
-        vec2 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
-        st += v.w[row] * x;
-        su += v.w[row] * (u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d);
-        sv += v.d[row] * x;
-    }
-    return LimitFrame(vec3(st, 0), vec3(su, 0), vec3(sv, 0), vec3(0), vec3(0), vec3(0));
+    TexRowSums rows[4];
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) rows[row] = sumTexRow(points, row, u);
+    return texFrameOfRows(rows, v);
 }
 
 // --- Gregory patches ------------------------------------------------------------------------------------------------

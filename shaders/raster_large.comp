@@ -84,13 +84,21 @@ void drawInTile(ScreenVertex a, ScreenVertex b, ScreenVertex c, uint triangle, i
     if (size.x <= 0 || size.y <= 0) return;
     for (int k = int(gl_LocalInvocationID.x); k < size.x * size.y; k += int(gl_WorkGroupSize.x)) {
         ivec2 pixel = first + ivec2(k % size.x, k / size.x);
-        for (uint s = 0u; s < sampleCount(); ++s) {
+        [[unroll]] for (uint s = 0u; s < kMostSamples; ++s) {
+            if (s >= sampleCount()) continue;
             ivec2 p = 256 * pixel + placeOf(s);
             int64_t ea = edgeAt(b.p, c.p, p), eb = edgeAt(c.p, a.p, p), ec = edgeAt(a.p, b.p, p);
             if (ea + int64_t(bias.x) < 0l || eb + int64_t(bias.y) < 0l || ec + int64_t(bias.z) < 0l) continue;
             store(pixel, s, vec3(float(ea), float(eb), float(ec)) * perArea, all, triangle, isFront);
         }
     }
+}
+
+// Whether a triangle with all corners on the screen lies outside of a tile: so that it need not be cut to find out.
+bool isApart(uint vertices[3], ivec2 first, ivec2 last) {
+    ivec2 a = ivec2(screenAt(vertices[0]).xy), b = ivec2(screenAt(vertices[1]).xy), c = ivec2(screenAt(vertices[2]).xy);
+    ivec2 low = min(a, min(b, c)), high = max(a, max(b, c));
+    return low.x != kUnplaced && (any(lessThan(high, 256 * first)) || any(greaterThan(low, 256 * (last + 1))));
 }
 
 void main() {
@@ -100,8 +108,11 @@ void main() {
     uint count = inputs.targets.largeTriangles.at[kLargeCount];
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
         uint triangle = inputs.targets.largeTriangles.at[kLargeFirst + i];
+        uint vertices[3];
+        for (uint k = 0u; k < 3u; ++k) vertices[k] = meshIndex(3u * triangle + k);
+        if (isApart(vertices, first, last)) continue;
         for (uint k = 0u; k < 3u; ++k) {
-            uint vertex = meshIndex(3u * triangle + k);
+            uint vertex = vertices[k];
             precise vec4 clip = project(meshAt(2u * vertex).xyz);
             corners[k] = ClipVertex(clip, kPass == kPassSurface ? worldNormal(meshAt(2u * vertex + 1u).xyz) : vec3(0));
         }

@@ -93,10 +93,20 @@ PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsText
     return frames;
 }
 
-SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
-    bool hasTexture = wantsTexture && readsTexCoords();
-    bool hasRest = kReadsRest && wantsTexture && (kHasHeight || kHasTexGradients);
-    PointFrames frames = evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest);
+#ifndef RELIEF_TRIANGLES
+
+// What evaluateInOneCall() gives where both patches are bicubic: code for nothing else.
+PointFrames evaluateBicubic(PatchPoints patchPoints, Leaf leaf, bool wantsTexture, bool wantsRest) {
+    PointFrames frames = PointFrames(byFace(regular(patchPoints.surface, leaf.uv), leaf.scale), kNoFrame, kNoFrame);
+    if (wantsTexture) frames.texture = byFace(regularTexture(patchPoints.texture, leaf.uv), leaf.scale);
+    if (wantsRest) frames.rest = byFace(regular(inPose(patchPoints.surface, inputs.model.pointsRest), leaf.uv), leaf.scale);
+    return frames;
+}
+#endif
+
+bool readsRest() { return kReadsRest && (kHasHeight || kHasTexGradients); }
+
+SurfacePoint surfacePointOf(PointFrames frames, PatchPoints patchPoints, Leaf leaf, vec2 uv, bool hasTexture, bool hasRest) {
     SurfacePoint point;
     point.frame = frames.surface;
     point.tex = TexFrame(uv, mat2(1.0));
@@ -119,5 +129,10 @@ SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool want
         addStretch(point, frames.rest, restNormal);
     }
     return point;
+}
+
+SurfacePoint surfacePoint(PatchPoints patchPoints, Leaf leaf, vec2 uv, bool wantsTexture) {
+    bool hasTexture = wantsTexture && readsTexCoords(), hasRest = wantsTexture && readsRest();
+    return surfacePointOf(evaluateInOneCall(patchPoints, leaf, hasTexture, hasRest), patchPoints, leaf, uv, hasTexture, hasRest);
 }
 #endif

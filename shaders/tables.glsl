@@ -14,11 +14,13 @@
     element name(uint i) { return name##Table.elements[i]; }
 #else
 #define RELIEF_SAMPLER_uint usamplerBuffer
+#define RELIEF_SAMPLER_uvec2 usamplerBuffer
 #define RELIEF_SAMPLER_uvec4 usamplerBuffer
 #define RELIEF_SAMPLER_float samplerBuffer
 #define RELIEF_SAMPLER_vec2 samplerBuffer
 #define RELIEF_SAMPLER_vec4 samplerBuffer
 #define RELIEF_PART_uint x
+#define RELIEF_PART_uvec2 xy
 #define RELIEF_PART_uvec4 xyzw
 #define RELIEF_PART_float x
 #define RELIEF_PART_vec2 xy

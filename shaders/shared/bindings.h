@@ -12,7 +12,7 @@ namespace relief {
 #endif
 
 RELIEF_CONSTANT uint kBindInputs = 0u;         // uniform buffer: PassInputs
-RELIEF_CONSTANT uint kBindHeight = 1u;         // table: words of the height maps, see shared/maps.h
+RELIEF_CONSTANT uint kBindHeight = 1u;         // table: pairs of words of the height maps, see shared/maps.h
 RELIEF_CONSTANT uint kBindAlbedo = 2u;         // sampled image
 RELIEF_CONSTANT uint kBindEnvironment = 3u;    // sampled image, equirectangular
 RELIEF_CONSTANT uint kBindShadow = 4u;         // sampled image, reversed depth from the key light

@@ -28,7 +28,7 @@ RELIEF_CONSTANT uint kIdPass = 15u;            // kPass...
 RELIEF_CONSTANT uint kIdIsMesh = 16u;          // layers: the model is a triangle mesh
 RELIEF_CONSTANT uint kIdIsPlaced = 17u;        // the model is turned or scaled in the world
 RELIEF_CONSTANT uint kIdHasInstances = 18u;    // samples carry the number of their instance
-RELIEF_CONSTANT uint kIdEntries = 19u;         // posing: entries per stencil block, or 0
+RELIEF_CONSTANT uint kIdEntries = 19u;         // posing: entries per stencil block
 RELIEF_CONSTANT uint kIdHasTexGradients = 20u; // vertices carry tangents and slopes, see varyings.glsl
 RELIEF_CONSTANT uint kIdHasSlopes = 21u;       // normals are bent by the slopes of heights, per fragment
 RELIEF_CONSTANT uint kIdNormalMap = 22u;       // kNormalMap...
@@ -37,7 +37,8 @@ RELIEF_CONSTANT uint kIdReadsRest = 24u; // heights depend on the rest pose, and
 RELIEF_CONSTANT uint kIdReadsSampleBuffers = 25u; // light: samples are those of raster_*.comp
 RELIEF_CONSTANT uint kIdWritesIds = 26u;          // raster: samples are numbers of triangles, for raster_resolve.comp
 RELIEF_CONSTANT uint kIdHasSampleColors = 27u;    // light: samples in buffers have colours of their own
-RELIEF_CONSTANT uint kIdCount = 28u;
+RELIEF_CONSTANT uint kIdReadsShadowCodes = 28u; // light: the shadow map is that of raster_*.comp
+RELIEF_CONSTANT uint kIdCount = 29u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -69,7 +70,7 @@ RELIEF_CONSTANT uint kNormalMapObject = 2u;
 RELIEF_CONSTANT uint kLargeCount = 3u;          // word: triangles in the list
 RELIEF_CONSTANT uint kLargeFirst = 4u;          // word: the first one
 RELIEF_CONSTANT uint kMostLargeGroups = 65535u; // that a dispatch may have on every device
-RELIEF_CONSTANT int kLargeTile = 128;           // pixels each way that one of its workgroups fills
+RELIEF_CONSTANT int kLargeTile = 512;           // pixels each way that one of its workgroups fills
 
 RELIEF_CONSTANT float kShadowCodes = 65535.0f; // depths of a shadow map are stored as whole numbers up to this
 

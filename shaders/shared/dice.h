@@ -40,6 +40,14 @@ struct InsideTile {
     uint firstVertex; // of the face's inside
 };
 
+// Samples of a run that lie in bicubic patches of the owner, of the surface and of its texture coordinates.
+struct EdgePiece {
+    uint run;
+    uint firstK; // in the edge's direction
+    uint endK;   // one past the last
+    uint unused;
+};
+
 // A run of triangles of one face.
 struct TriangleTile {
     uint face;
@@ -52,6 +60,7 @@ struct TriangleTile {
 RELIEF_CONSTANT uint kRunTexels = 2u;
 RELIEF_CONSTANT uint kFaceRunsTexels = 4u;
 RELIEF_CONSTANT uint kInsideTileTexels = 2u;
+RELIEF_CONSTANT uint kEdgePieceTexels = 1u;
 RELIEF_CONSTANT uint kTriangleTileTexels = 1u;
 
 RELIEF_CONSTANT uint kTrianglesPerTile = 256u;
@@ -97,7 +106,7 @@ RELIEF_SHARED_FUNCTION uint cellTriangles(uint sideCount, uvec2 n) {
 #ifdef __cplusplus
 } // namespace formulas
 static_assert(sizeof(VertexRun) == 24 && sizeof(FaceRuns) == 64 && sizeof(InsideTile) == 32 &&
-              sizeof(TriangleTile) == 16);
+              sizeof(EdgePiece) == 16 && sizeof(TriangleTile) == 16);
 } // namespace relief
 #endif
 #endif

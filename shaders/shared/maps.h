@@ -1,12 +1,15 @@
-// How the texels of height maps are kept on the device: in 32-bit words, row after row from the top, level after level,
-// each level from a whole word on. Every device reads the same numbers: no sampler takes part, which may round as it
+// How the texels of height maps are kept on the device: in 32-bit words, level after level, each level from a whole
+// word on. Levels whose width and height are multiples of 4 are kept in blocks of 4 x 4 texels, so that the texels
+// around a point lie in few cache lines and pages; other levels row after row. Blocks, and the texels of a block, go
+// row after row from the top as well. Every device reads the same numbers: no sampler takes part, which may round as it
 // likes.
 //
 //   kMapReal      one word per texel: its bits
 //   kMapHalf      two texels per word, the first one in the low half: half floats
 //   kMapUnorm16   two texels per word, as above: whole numbers 0..65535
 //   kMapUnorm8    four texels per word, the first one lowest: whole numbers 0..255
-//   kMapBc4       two words for 4 x 4 texels, numbers 0..255 (Khronos Data Format Specification 1.3, "BC4 unsigned"):
+//   kMapBc4       two words per block, which every level has, begun ones whole; numbers 0..255 (Khronos Data Format
+//   Specification 1.3, "BC4 unsigned"):
 //                 red0:8 red1:8 codes:16 | codes:32, the 16 codes of three bits each from the lowest bit on
 #ifndef RELIEF_SHARED_MAPS_H
 #define RELIEF_SHARED_MAPS_H
@@ -24,6 +27,11 @@ RELIEF_CONSTANT uint kMapUnorm8 = 3u;
 RELIEF_CONSTANT uint kMapBc4 = 4u;
 
 RELIEF_CONSTANT uint kMostMapLevels = 16u;
+
+// Whether the texels of a level of that size are kept in blocks.
+RELIEF_SHARED_FUNCTION bool mapIsInBlocks(uint format, ivec2 size) {
+    return format == kMapBc4 || ((size.x | size.y) & 3) == 0;
+}
 
 // One map in the words of kBindHeight: h = scale * (number - mid) in cage units, of the numbers that the words hold.
 struct MapRecord {

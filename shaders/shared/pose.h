@@ -8,7 +8,7 @@
 namespace relief {
 #endif
 
-// Set 0 of pose_cage.comp, pose_mesh.comp and pose_points.comp: tables (shaders/tables.glsl).
+// Set 0 of pose_cage.comp, pose_mesh.comp, pose_points.comp and pose_blocks.comp: tables (shaders/tables.glsl).
 RELIEF_CONSTANT uint kPoseUpload = 0u;     // floats: the posed cage, or morph weights and three rows of four per joint
 RELIEF_CONSTANT uint kPoseRest = 1u;       // the rig's rest points, then the offsets of its morph targets
 RELIEF_CONSTANT uint kPoseJoints = 2u;     // joints of each point
@@ -30,7 +30,7 @@ RELIEF_CONSTANT uint kEntriesTogether = 8u;
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Points { vec4 at[]; };
 #endif
 
-// Push constants of all three.
+// Push constants of all four.
 struct PosePush {
     RELIEF_ADDRESS(Points) target; // all posed points
     uint firstPoint;               // of the set that is written; pose_mesh.comp: of the dispatch

@@ -36,6 +36,7 @@ struct DicedFacePush {
 struct DicePush {
     uint first; // number of the dispatch's first workgroup
     uint count; // dice_edges.comp: vertices of all dispatches
+    uint list;  // dice_edges.comp: texel of kBindDiceTiles where the list of these vertices begins, four per texel
 };
 
 // raster_*.comp
@@ -54,7 +55,7 @@ struct SamplePush {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(GridPush) == 12 && sizeof(MeshPush) == 12 && sizeof(DicePush) == 8 && sizeof(SamplePush) == 4 &&
+static_assert(sizeof(GridPush) == 12 && sizeof(MeshPush) == 12 && sizeof(DicePush) == 12 && sizeof(SamplePush) == 4 &&
               sizeof(DicedFacePush) == 120 && sizeof(RasterPush) == 28);
 
 // Bytes that every pipeline's layout reserves: what the largest block takes. Vulkan promises 128.

@@ -95,8 +95,8 @@ struct EncodedMap {
 /// Throws Failure::input for values beyond the range of half floats.
 EncodedMap encode(const HeightMap& map, MapFormat format);
 
-/// A map in the words that the device reads (shared/maps.h), with its mip levels: each texel is the mean of four of the
-/// level before, or of what there is.
+/// A map in the words of shared/maps.h, with its mip levels: each texel is the mean of four of the level before, or of
+/// what there is. Texels that are not in BC4 blocks are in rows: the device gets them in blocks where it reads blocks.
 struct MapWords {
     std::vector<std::uint32_t> words;
     std::vector<std::uint32_t> firsts; ///< first word of each level

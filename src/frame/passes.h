@@ -16,11 +16,11 @@ mat4 shadowMatrix(const dvec3& towardsLight, const Bounds& bounds);
 struct SampleImages {
     Texture normals, colors, depths; ///< four samples per pixel, what surface.frag writes
     Texture instances;               ///< of the picture's size once one has several, else a single pixel
-    Texture shadow;
-    bool isPlaceholder = false; ///< of single pixels
+    bool isPlaceholder = false;      ///< of single pixels
 };
 
 SampleImages makeSampleImages(Device& device, const RendererDesc& desc);
+Texture makeShadowImage(Device& device, const RendererDesc& desc);
 
 /// Bytes of the four samples of a pixel in SampleBuffers.
 inline constexpr std::uint64_t kSampleBytes = 32;

@@ -108,6 +108,7 @@ const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame) {
                            {.show = frame.technique.constant,
                             .hasInstances = frame.hasInstances(),
                             .readsSampleBuffers = frame.raster == Raster::compute,
+                            .readsShadowCodes = frame.shadowRaster == Raster::compute,
                             .hasSampleColors = frame.writesIds});
 }
 

@@ -15,6 +15,8 @@ constexpr std::uint32_t kRasterGroup = 64;
 /// Numbers of triangles that samples can hold besides the side that they are seen from.
 constexpr std::uint64_t kMostIds = std::uint64_t(1) << 31;
 
+constexpr const char* kLargeShader = "raster_large.comp";
+
 struct MeshSize {
     std::uint32_t vertexCount, triangleCount;
 };
@@ -63,16 +65,21 @@ std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
     return "";
 }
 
-Raster Renderer::Parts::rasterOf(const Frame& frame) const {
+/// The picture and its shadow map each by what suits the size of triangles in them.
+void Renderer::Parts::chooseRasters(Frame& frame) const {
     const std::string obstacle = obstacleToRaster(frame);
     const Raster asked = frame.options.raster;
     if (asked == Raster::compute && !obstacle.empty())
         fail(Failure::usage, "the compute rasterizer cannot draw this picture: {}", obstacle);
-    if (asked != Raster::automatic) return asked;
-    if (!obstacle.empty() || !device.traits().rastersFasterInCompute) return Raster::hardware;
-    const double pixels = coveredPixels(frame.options.bounds, frame.inputs.view.toClip, size());
-    const bool areSmall = pixels < kMostPixelsPerTriangle * 0.5 * double(frame.stats.triangleCount);
-    return areSmall ? Raster::compute : Raster::hardware;
+    const auto choose = [&](const mat4& toClip, uvec2 size) {
+        if (asked != Raster::automatic) return asked;
+        if (!obstacle.empty() || !device.traits().rastersFasterInCompute) return Raster::hardware;
+        const double pixels = coveredPixels(frame.options.bounds, toClip, size);
+        const bool areSmall = pixels < kMostPixelsPerTriangle * 0.5 * double(frame.stats.triangleCount);
+        return areSmall ? Raster::compute : Raster::hardware;
+    };
+    frame.raster = frame.stats.raster = choose(frame.inputs.view.toClip, size());
+    if (frame.castsShadows()) frame.shadowRaster = choose(frame.inputs.light.toShadow, uvec2(desc.shadowSide));
 }
 
 // --- dispatches ------------------------------------------------------------------------------------------
@@ -88,7 +95,7 @@ bool Renderer::Parts::needsIds(const Frame& frame) const {
 /// The buffers that hold samples, made when first needed.
 void Renderer::Parts::useBuffers(Frame& frame) {
     if (!buffers) buffers = makeSampleBuffers(device, desc);
-    frame.writesIds = needsIds(frame);
+    frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
     if (frame.writesIds && buffers->colors.buffer.bytes == 0)
         buffers->colors = makeSampleTable(device, desc, "colors of samples", 32);
     if (frame.hasInstances() && buffers->instances.buffer.bytes == 0)
@@ -139,7 +146,9 @@ void Renderer::Parts::makeMeshBuffers(const Frame& frame) {
 const Pipeline& Renderer::Parts::rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn,
                                                 DrawPass pass) {
     const DrawPassRow& row = rowOf(pass);
-    ShaderConstants constants{.groupSize = kRasterGroup, .pass = row.constant};
+    // Few large triangles: on CPU drivers invocations beyond the lanes would only repeat the cuts.
+    const bool isLarge = std::string_view(file) == kLargeShader;
+    ShaderConstants constants{.groupSize = isLarge ? device.traits().smallGroup : kRasterGroup, .pass = row.constant};
     if (row.hasNormals) {
         constants.writesIds = frame.writesIds;
         constants.show = frame.technique.constant;
@@ -172,7 +181,7 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
     const MeshSize mesh = meshSizeOf(drawn);
     dispatch("raster_vertices.comp", mesh.vertexCount);
     dispatch("raster_triangles.comp", mesh.triangleCount);
-    const Pipeline& large = rasterPipeline("raster_large.comp", frame, drawn, pass);
+    const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, pass);
     bind(commands, large, drawn.set);
     pushConstants(commands, large, block);
     vkCmdDispatchIndirect(commands, buffers->large.handle.get(), 0);

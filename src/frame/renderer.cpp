@@ -83,7 +83,7 @@ void Renderer::Parts::describeView(Frame& frame) {
 void Renderer::Parts::useImages(Frame& frame) {
     const bool areDrawn = frame.raster == Raster::hardware;
     if (!images || (areDrawn && images->isPlaceholder)) {
-        images = makeSampleImages(device, areDrawn ? desc : RendererDesc{.width = 1, .height = 1, .shadowSide = 1});
+        images = makeSampleImages(device, areDrawn ? desc : RendererDesc{.width = 1, .height = 1});
         images->isPlaceholder = !areDrawn;
     }
     const TextureDesc& marks = images->instances.desc;
@@ -92,7 +92,10 @@ void Renderer::Parts::useImages(Frame& frame) {
     const auto use = [&](std::uint32_t slot, const Texture& image) {
         frame.bindings[slot] = {.view = image.view.get(), .sampler = nearest.get()};
     };
-    use(kBindShadow, images->shadow);
+    if (frame.castsShadows() && frame.shadowRaster == Raster::hardware) {
+        if (!shadow) shadow = makeShadowImage(device, desc);
+        use(kBindShadow, *shadow);
+    }
     use(kBindDepths, images->depths);
     use(kBindNormals, images->normals);
     use(kBindColors, images->colors);
@@ -187,9 +190,9 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
     }
 
     // What makes samples of them.
-    frame.raster = frame.stats.raster = rasterOf(frame);
+    chooseRasters(frame);
     useImages(frame);
-    if (frame.raster == Raster::compute) useBuffers(frame);
+    if (frame.raster == Raster::compute || frame.shadowRaster == Raster::compute) useBuffers(frame);
     return frame;
 }
 
@@ -220,11 +223,11 @@ Rendering Renderer::Parts::begin(VkCommandBuffer commands, const Frame& frame, R
 }
 
 void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
-    if (frame.raster == Raster::compute) {
+    if (frame.shadowRaster == Raster::compute) {
         rasterize(commands, frame, DrawPass::shadow, buffers->shadow.buffer, uvec2(desc.shadowSide));
         return;
     }
-    Rendering rendering = begin(commands, frame, {{}, attachment(images->shadow), uvec2(desc.shadowSide)});
+    Rendering rendering = begin(commands, frame, {{}, attachment(*shadow), uvec2(desc.shadowSide)});
     draw(rendering, frame, DrawPass::shadow);
     rendering.end();
 }

@@ -17,6 +17,7 @@ struct Renderer::Parts {
     RendererDesc desc;
     Buffer picture;                     ///< what light.comp writes
     std::optional<SampleImages> images; ///< these and the others are made when a picture first needs them
+    std::optional<Texture> shadow;
     std::optional<SampleBuffers> buffers;
     PassResources resources;
     std::vector<Buffer> inputBuffers; ///< one per instance, and one for the passes over pixels
@@ -72,7 +73,7 @@ struct Renderer::Parts {
         PassBindings bindings{};
         std::vector<Drawn> drawn;
         std::vector<pass::Material> materials;
-        Raster raster = Raster::hardware;
+        Raster raster = Raster::hardware, shadowRaster = Raster::hardware;
         Buffer materialTable; ///< where there are several instances
         BindingSet set;
         FrameStats stats;
@@ -121,7 +122,7 @@ struct Renderer::Parts {
 
     // The compute rasterizer: raster.cpp.
     [[nodiscard]] std::string obstacleToRaster(const Frame& frame) const;
-    [[nodiscard]] Raster rasterOf(const Frame& frame) const;
+    void chooseRasters(Frame& frame) const;
     [[nodiscard]] bool needsIds(const Frame& frame) const;
     void useBuffers(Frame& frame);
     void makeMeshBuffers(const Frame& frame);

@@ -4,7 +4,6 @@ namespace relief {
 
 SampleImages makeSampleImages(Device& device, const RendererDesc& desc) {
     const auto width = std::uint32_t(desc.width), height = std::uint32_t(desc.height);
-    const auto shadowSide = std::uint32_t(desc.shadowSide);
     const auto samples = [&](const char* name, VkFormat format, VkImageUsageFlags usage) {
         return makeTexture(device, {.name = name,
                                     .width = width,
@@ -19,13 +18,16 @@ SampleImages makeSampleImages(Device& device, const RendererDesc& desc) {
     t.colors = samples("colors", kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.depths = samples("depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
     t.instances = makeInstanceTarget(device, {.width = 1, .height = 1}, VK_SAMPLE_COUNT_4_BIT);
-
-    t.shadow = makeTexture(device, {.name = "shadow",
-                                    .width = shadowSide,
-                                    .height = shadowSide,
-                                    .format = kShadowFormat,
-                                    .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
     return t;
+}
+
+Texture makeShadowImage(Device& device, const RendererDesc& desc) {
+    const auto shadowSide = std::uint32_t(desc.shadowSide);
+    return makeTexture(device, {.name = "shadow",
+                                .width = shadowSide,
+                                .height = shadowSide,
+                                .format = kShadowFormat,
+                                .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
 }
 
 SampleBuffers makeSampleBuffers(Device& device, const RendererDesc& desc) {

@@ -64,7 +64,8 @@ struct DeviceTraits {
     /// Invocations that a workgroup should have where there is little work: a CPU driver runs the rest one after
     /// another.
     std::uint32_t smallGroup = 64;
-    std::uint32_t maxImageSide = 0; ///< texels
+    bool hasSubgroupShuffle = false; ///< in compute shaders
+    std::uint32_t maxImageSide = 0;  ///< texels
     std::uint32_t maxDrawIndirectCount = 1;
     std::uint64_t heapBytes = 0; ///< the device-local heap
     /// Tessellated vertices that one draw should not exceed. Mesa's CPU driver resets every vertex id of a draw at each

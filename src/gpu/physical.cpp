@@ -135,6 +135,8 @@ DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> 
         fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(api), VK_API_VERSION_MINOR(api), VK_API_VERSION_PATCH(api));
     traits.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     if (traits.isCpu) traits.smallGroup = std::max(subgroup.subgroupSize, 1u);
+    traits.hasSubgroupShuffle = (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0 &&
+                                (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
 
     // Which paths it can draw by, and how shaders read tables.
     traits.hasTessellation = features.tessellationShader == VK_TRUE;

@@ -8,6 +8,7 @@ std::uint64_t texelBytes(VkFormat format) {
     switch (format) {
     case VK_FORMAT_R32_UINT:
     case VK_FORMAT_R32_SFLOAT: return 4;
+    case VK_FORMAT_R32G32_UINT:
     case VK_FORMAT_R32G32_SFLOAT: return 8;
     case VK_FORMAT_R32G32B32A32_UINT:
     case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;

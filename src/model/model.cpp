@@ -13,7 +13,7 @@ std::span<const std::byte> bytesOf(const std::vector<T>& array) {
 
 /// A map whose words are more than the device reads from one table is refused before anything is allocated.
 void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) {
-    const std::uint64_t bytes = mapBytes(format, map.width, map.height), most = largestTable(device, 4);
+    const std::uint64_t bytes = mapBytes(format, map.width, map.height), most = largestTable(device, 8);
     if (bytes > most)
         fail(Failure::device, "a height map of {} x {} takes {} with its mips; {} reads {}", map.width, map.height,
              humanBytes(bytes), device.traits().name, humanBytes(most));
@@ -89,8 +89,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         checkMapSize(device, *desc.height, encoding.format);
         const MapWords words = toWords(*desc.height, encoding);
-        height = GpuHeightMap{uploadWords(device, "height map", words.words), makeRecord(*desc.height, words),
-                              encoding.format, float(desc.height->heightBound())};
+        height = GpuHeightMap{uploadHeights(device, words, encoding.format, {desc.height->width, desc.height->height}),
+                              makeRecord(*desc.height, words), encoding.format, float(desc.height->heightBound())};
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
     if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};

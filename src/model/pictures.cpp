@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <glm/gtc/packing.hpp>
 
@@ -75,7 +76,32 @@ std::vector<std::uint64_t> packNormals(const NormalMap& map, std::uint32_t& leve
     }
 }
 
+std::size_t texelBytes(MapFormat format) { return format == MapFormat::real ? 4 : format == MapFormat::unorm8 ? 1 : 2; }
+
+/// Brings the texels of a level from rows into blocks of 4 x 4.
+void toBlocks(std::span<std::byte> texels, const ivec2& size, std::size_t bytes) {
+    const std::vector<std::byte> rows(texels.begin(), texels.end());
+    const std::size_t blockRow = 4 * bytes, row = std::size_t(size.x) * bytes; // bytes
+    std::byte* to = texels.data();
+    for (std::size_t y = 0; y < std::size_t(size.y); y += 4)
+        for (std::size_t x = 0; x < row; x += blockRow)
+            for (std::size_t k = 0; k < 4; ++k, to += blockRow) std::memcpy(to, &rows[(y + k) * row + x], blockRow);
+}
+
 } // namespace
+
+TexelBuffer uploadHeights(Device& device, const MapWords& map, MapFormat format, const ivec2& size) {
+    std::vector<std::uint32_t> words = map.words;
+    for (std::size_t level = 0; level < map.firsts.size() && format != MapFormat::bc4; ++level) {
+        const ivec2 levelSize = glm::max(size >> int(level), ivec2(1));
+        if (!mapIsInBlocks(std::uint32_t(format), levelSize)) continue;
+        const std::size_t bytes = std::size_t(levelSize.x) * std::size_t(levelSize.y) * texelBytes(format);
+        toBlocks(std::as_writable_bytes(std::span(words)).subspan(4 * std::size_t(map.firsts[level]), bytes), levelSize,
+                 texelBytes(format));
+    }
+    words.resize((words.size() + 1) / 2 * 2, 0);
+    return uploadTexels(device, {.name = "height map"}, VK_FORMAT_R32G32_UINT, std::as_bytes(std::span(words)));
+}
 
 GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
     const SlopeMap slopes = computeSlopes(map);

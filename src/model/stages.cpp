@@ -97,6 +97,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHeightFunction] = heightFunction;
     values[kIdReadsRest] = readsRest;
     values[kIdReadsSampleBuffers] = readsSampleBuffers;
+    values[kIdReadsShadowCodes] = readsShadowCodes;
     values[kIdWritesIds] = writesIds;
     values[kIdHasSampleColors] = hasSampleColors;
     values[kIdHasTexGradients] = hasTexGradients;

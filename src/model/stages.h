@@ -31,7 +31,7 @@ struct ShaderConstants {
     std::uint32_t normalMap = kNormalMapNone;
     std::uint32_t heightFunction = 0; ///< HeightFunction::number()
     bool readsRest = false;
-    bool readsSampleBuffers = false, writesIds = false, hasSampleColors = false;
+    bool readsSampleBuffers = false, readsShadowCodes = false, writesIds = false, hasSampleColors = false;
 
     /// One value per id, in the order of ids.
     [[nodiscard]] std::vector<std::uint32_t> values() const;

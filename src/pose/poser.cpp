@@ -11,10 +11,9 @@
 namespace relief {
 namespace {
 
-constexpr std::uint32_t kCageGroup = 64;       ///< invocations of pose_cage.comp
-constexpr std::uint32_t kPointsGroup = 64;     ///< of pose_points.comp, where it loops
-constexpr std::uint32_t kLanes = 8;            ///< of pose_points.comp, where it is straight code
-constexpr std::uint32_t kStraightEntries = 32; ///< blocks of more loop everywhere
+constexpr std::uint32_t kCageGroup = 64;   ///< invocations of pose_cage.comp
+constexpr std::uint32_t kPointsGroup = 64; ///< of pose_points.comp
+constexpr std::uint32_t kLanes = 8;        ///< of pose_blocks.comp
 
 void appendFloats(std::vector<float>& floats, std::span<const vec3> points) {
     for (const vec3& p : points) floats.insert(floats.end(), {p.x, p.y, p.z});
@@ -138,7 +137,7 @@ void Poser::Parts::makePasses(const StencilBlocks& blocks) {
         addPass(0, blocks, 0, block);
         passes.back().isShared = true;
     }
-    if (device.traits().smallGroup == kLanes)
+    if (device.traits().smallGroup == kLanes && device.traits().hasSubgroupShuffle)
         for (const StencilClass& c : blocks.classes) {
             if (c.entryCount > kStraightEntries) break;
             block = c.firstBlock + c.blockCount;
@@ -149,8 +148,9 @@ void Poser::Parts::makePasses(const StencilBlocks& blocks) {
 
 void Poser::Parts::addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
                            std::uint32_t endBlock) {
-    const std::uint32_t groupSize = entryCount == 0 ? kPointsGroup : kLanes;
-    passes.push_back({makePosePipeline(device, "pose_points.comp", {.groupSize = groupSize, .entryCount = entryCount}),
+    passes.push_back({entryCount == 0 ? makePosePipeline(device, "pose_points.comp", {.groupSize = kPointsGroup})
+                                      : makePosePipeline(device, "pose_blocks.comp",
+                                                         {.groupSize = kLanes, .entryCount = entryCount}),
                       firstBlock, endBlock, blocks.firsts[firstBlock], entryCount});
 }
 

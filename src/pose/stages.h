@@ -10,7 +10,8 @@
 
 namespace relief {
 
-constexpr std::uint32_t kFloatsPerJoint = 12; ///< three rows: joints are affine
+constexpr std::uint32_t kFloatsPerJoint = 12;  ///< three rows: joints are affine
+constexpr std::uint32_t kStraightEntries = 32; ///< stencil blocks of more are pose_points.comp's on every device
 
 inline PipelineLayoutDesc poseLayout(const Device& device) {
     return tableLayout(device, kPoseBindCount, sizeof(PosePush));

@@ -1,8 +1,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "pose/pose.h"
-#include "shared/pose.h"
+#include "pose/stages.h"
 
 namespace relief {
 namespace {
@@ -65,13 +64,13 @@ std::vector<Draft> drafts(const Stencils& stencils, std::uint32_t firstRow, std:
     return all;
 }
 
-/// Appends a block. `indexInBlock`: scratch memory, per point its index within the block.
-void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uint32_t>& indexInBlock,
-              StencilBlocks& blocks) {
+/// Appends a block of that many entries. `indexInBlock`: scratch memory, per point its index within the block.
+void addBlock(const Stencils& stencils, const Draft& draft, std::uint32_t entryCount,
+              std::vector<std::uint32_t>& indexInBlock, StencilBlocks& blocks) {
     const std::size_t first = blocks.entries.size();
     for (std::size_t i = 0; i < draft.points.size(); ++i) indexInBlock[draft.points[i]] = std::uint32_t(i);
     blocks.entries.insert(blocks.entries.end(), draft.points.begin(), draft.points.end());
-    blocks.entries.resize(first + roundedUp(draft.points.size()), draft.points.front());
+    blocks.entries.resize(first + entryCount, draft.points.front());
     blocks.weights.resize(blocks.entries.size() * kBlockRows, 0.0f);
     for (std::size_t lane = 0; lane < kBlockRows; ++lane) {
         blocks.targets.push_back(lane < draft.rows.size() ? draft.rows[lane] : kNoPatch);
@@ -85,6 +84,22 @@ void addBlock(const Stencils& stencils, const Draft& draft, std::vector<std::uin
     blocks.firsts.push_back(std::uint32_t(blocks.entries.size()));
 }
 
+/// The entries of each draft's block, for drafts in rising order of their points. A few blocks get as many as the next
+/// larger ones have: a dispatch of their own takes more time than their weights of 0.
+std::vector<std::uint32_t> entryCounts(std::span<const Draft> drafts) {
+    constexpr std::size_t kFewBlocks = 1000;
+    std::vector<std::uint32_t> counts;
+    for (const Draft& draft : drafts) counts.push_back(roundedUp(draft.points.size()));
+    for (auto first = counts.begin(); first != counts.end();) {
+        const auto end = std::upper_bound(first, counts.end(), *first);
+        if (std::size_t(end - first) < kFewBlocks && end != counts.end() && *end <= kStraightEntries)
+            std::fill(first, end, *end);
+        else
+            first = end;
+    }
+    return counts;
+}
+
 } // namespace
 
 StencilBlocks stencilBlocks(const Stencils& stencils) {
@@ -93,17 +108,18 @@ StencilBlocks stencilBlocks(const Stencils& stencils) {
     std::vector<std::uint32_t> indexInBlock;
     indexInBlock.resize(1 + (stencils.indices.empty() ? 0 : *std::ranges::max_element(stencils.indices)));
     for (const Draft& draft : drafts(stencils, 0, stencils.sharedRowCount))
-        addBlock(stencils, draft, indexInBlock, blocks);
+        addBlock(stencils, draft, roundedUp(draft.points.size()), indexInBlock, blocks);
     blocks.sharedBlockCount = std::uint32_t(blocks.blockCount());
 
     std::vector<Draft> all = drafts(stencils, stencils.sharedRowCount, std::uint32_t(stencils.rowCount()));
     std::ranges::stable_sort(all, {}, [](const Draft& draft) { return roundedUp(draft.points.size()); });
-    for (const Draft& draft : all) {
-        const std::uint32_t entryCount = roundedUp(draft.points.size());
+    const std::vector<std::uint32_t> counts = entryCounts(all);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::uint32_t entryCount = counts[i];
         if (blocks.classes.empty() || blocks.classes.back().entryCount != entryCount)
             blocks.classes.push_back({entryCount, std::uint32_t(blocks.blockCount()), 0});
         ++blocks.classes.back().blockCount;
-        addBlock(stencils, draft, indexInBlock, blocks);
+        addBlock(stencils, all[i], entryCount, indexInBlock, blocks);
     }
     return blocks;
 }

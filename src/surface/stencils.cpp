@@ -1,4 +1,7 @@
 // Stencils of refined and local points, cut down to the points that some patch uses.
+#include <algorithm>
+#include <array>
+
 #include "surface/rows.h"
 
 namespace relief {
@@ -27,18 +30,47 @@ std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uin
     return oldIndex;
 }
 
+/// The lowest points of a row, in rising order.
+using LowestPoints = std::array<std::uint32_t, 6>;
+
+LowestPoints lowestPoints(std::span<const RowTable::Entry> row) {
+    LowestPoints lowest;
+    lowest.fill(kNoPatch);
+    for (const RowTable::Entry& entry : row) {
+        if (entry.index >= lowest.back()) continue;
+        auto at = lowest.end() - 1;
+        for (; at != lowest.begin() && *(at - 1) > entry.index; --at) *at = *(at - 1);
+        *at = entry.index;
+    }
+    return lowest;
+}
+
+/// Brings points with rows of their own into an order where neighbours are made of nearly the same points. A device
+/// makes them in this order, many at a time of a few points, and writes them one behind another.
+void sortByRows(std::vector<std::uint32_t>& points, const RowTable& rows) {
+    std::vector<std::pair<LowestPoints, std::uint32_t>> keyed;
+    keyed.reserve(points.size());
+    for (const std::uint32_t point : points) keyed.emplace_back(lowestPoints(rows.row(point)), keyed.size());
+    std::ranges::sort(keyed);
+    const std::vector<std::uint32_t> old = points;
+    std::ranges::transform(keyed, points.begin(), [&](const auto& key) { return old[key.second]; });
+}
+
 /// Shared rows come first and stand for all points that are one. Returns the points with rows of their own, in order.
 std::vector<std::uint32_t> renumberRows(Surface& surface, const RowTable& rows,
                                         const std::vector<std::uint32_t>& used) {
-    std::vector<std::uint32_t> ownRows, newRows;
-    for (const std::uint32_t point : used) {
-        const std::optional<std::uint32_t> shared = rows.sharedRowOf(point);
-        newRows.push_back(shared ? *shared : std::uint32_t(rows.sharedRows().size() + ownRows.size()));
-        if (!shared) ownRows.push_back(point);
+    std::vector<std::uint32_t> ownRows;
+    for (const std::uint32_t point : used)
+        if (!rows.sharedRowOf(point)) ownRows.push_back(point);
+    sortByRows(ownRows, rows);
+    std::vector<std::uint32_t> newRows(rows.size(), kNoPatch); // by the points' old indices
+    for (std::uint32_t row = 0; row < ownRows.size(); ++row)
+        newRows[ownRows[row]] = std::uint32_t(rows.sharedRows().size()) + row;
+    for (std::uint32_t& point : surface.patchPoints) {
+        if (point < surface.controlPointCount) continue;
+        const std::uint32_t old = used[point - surface.controlPointCount];
+        point = surface.controlPointCount + rows.sharedRowOf(old).value_or(newRows[old]);
     }
-    for (std::uint32_t& point : surface.patchPoints)
-        if (point >= surface.controlPointCount)
-            point = surface.controlPointCount + newRows[point - surface.controlPointCount];
     return ownRows;
 }
 

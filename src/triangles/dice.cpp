@@ -30,7 +30,9 @@ struct Work {
     std::vector<std::uint32_t> runFirsts; ///< one more at the end: where the insides begin
     std::vector<InsideTile> insides;      ///< those of regular patches first
     std::size_t regularCount = 0;
-    std::vector<TriangleTile> rings, cells; ///< triangles at edges, triangles between inner samples
+    std::vector<EdgePiece> pieces;            ///< of edges in bicubic patches
+    std::vector<std::uint32_t> otherVertices; ///< on corners and edges, neither in pieces nor on smooth edges
+    std::vector<TriangleTile> rings, cells;   ///< triangles at edges, triangles between inner samples
     std::vector<std::uint32_t> firstTriangles, faceRates;
     std::vector<std::uint32_t> firstInsides; ///< vertex of each face
     std::uint64_t vertexCount = 0, triangleCount = 0, sampleCount = 0;
@@ -63,9 +65,21 @@ private:
             work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
             work_.vertexCount += run.isCorner != 0 ? 1 : rates_.segments(run.element) - 1;
         }
+        for (std::uint32_t run = 0; run < table_.firstSmoothRun; ++run) splitRun(run);
         work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
         work_.sampleCount = model_.cornerFlags.size();
         for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge) work_.sampleCount += rates_.segments(edge) - 1;
+    }
+
+    /// The samples of a run in bicubic patches become a piece, the others are listed.
+    void splitRun(std::uint32_t run) {
+        const std::uint32_t edge = table_.runs[run].element, vertex = work_.runFirsts[run];
+        if (table_.runs[run].isCorner != 0) return work_.otherVertices.push_back(vertex);
+        const std::uint32_t n = rates_.segments(edge);
+        const auto [first, end] = samplesIn(table_.bicubicSpans[run], n, rates_.rates[edge]);
+        if (first < end) work_.pieces.push_back({run, first, end, 0});
+        for (std::uint32_t k = 1; k < n; ++k)
+            if (k < first || k >= end) work_.otherVertices.push_back(vertex + k - 1);
     }
 
     void addFace(std::uint32_t face) {
@@ -182,7 +196,11 @@ struct Dicer::Parts {
     struct Passes {
         std::vector<Pass> vertices, triangles;
     };
-    Passes passesOf(const Work& work, const DiceTable& table, std::uint32_t firstRing, std::uint32_t firstCell) const;
+    /// Texels of the table of tiles where each kind begins; the insides of faces are at 0.
+    struct FirstTiles {
+        std::uint32_t rings, cells, pieces, otherVertices;
+    };
+    Passes passesOf(const Work& work, const DiceTable& table, const FirstTiles& first) const;
     /// Compiles the shaders of passes that have work to do.
     void compile(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants);
     /// Returns the milliseconds that the passes take.
@@ -246,16 +264,17 @@ DicedMesh allocateMesh(Device& device, const SurfaceModel& model, const Work& wo
 
 } // namespace
 
-Dicer::Parts::Passes Dicer::Parts::passesOf(const Work& work, const DiceTable& table, std::uint32_t firstRing,
-                                            std::uint32_t firstCell) const {
-    const std::uint32_t edgeVertices = work.runFirsts[table.firstSmoothRun], group = device.traits().smallGroup;
+Dicer::Parts::Passes Dicer::Parts::passesOf(const Work& work, const DiceTable& table, const FirstTiles& first) const {
+    const auto others = std::uint32_t(work.otherVertices.size());
+    const std::uint32_t group = device.traits().smallGroup;
     const auto regularCount = std::uint32_t(work.regularCount);
     return {{{"dice_insides.comp", regularCount, {}, true},
              {"dice_insides.comp", work.insides.size() - regularCount, {.first = regularCount}},
-             {"dice_edges.comp", (edgeVertices + group - 1) / group, {.count = edgeVertices}},
+             {"dice_edges.comp", work.pieces.size(), {.first = first.pieces}, true},
+             {"dice_edges.comp", (others + group - 1) / group, {.count = others, .list = first.otherVertices}},
              {"dice_smooth_edges.comp", table.runs.size() - table.firstSmoothRun, {.first = table.firstSmoothRun}}},
-            {{"dice_triangles.comp", work.cells.size(), {.first = firstCell}, true},
-             {"dice_triangles.comp", work.rings.size(), {.first = firstRing}}}};
+            {{"dice_triangles.comp", work.cells.size(), {.first = first.cells}, true},
+             {"dice_triangles.comp", work.rings.size(), {.first = first.rings}}}};
 }
 
 void Dicer::Parts::compile(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants) {
@@ -277,8 +296,12 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     // What the shaders read.
     std::vector<std::uint32_t> tiles;
     appendRecords<kInsideTileTexels>(tiles, work.insides);
-    const std::uint32_t firstRing = appendRecords<kTriangleTileTexels>(tiles, work.rings);
-    const std::uint32_t firstCell = appendRecords<kTriangleTileTexels>(tiles, work.cells);
+    const FirstTiles first{.rings = appendRecords<kTriangleTileTexels>(tiles, work.rings),
+                           .cells = appendRecords<kTriangleTileTexels>(tiles, work.cells),
+                           .pieces = appendRecords<kEdgePieceTexels>(tiles, work.pieces),
+                           .otherVertices = std::uint32_t(tiles.size() / 4)};
+    tiles.insert(tiles.end(), work.otherVertices.begin(), work.otherVertices.end());
+    tiles.resize((tiles.size() + 3) / 4 * 4, 0);
     const RateTables rateTables = uploadRates(device, model, rates);
     const TexelBuffer tileTable =
         uploadTexels(device, {.name = "dice tiles"}, VK_FORMAT_R32G32B32A32_UINT, std::as_bytes(std::span(tiles)));
@@ -306,7 +329,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     constants.hasSlopes = options.wantsTexGradients && model.functionBendsNormals;
     constants.hasMips = rates.hasMips();
     constants.groupSize = device.traits().smallGroup;
-    Passes passes = passesOf(work, table, firstRing, firstCell);
+    Passes passes = passesOf(work, table, first);
     compile(passes.vertices, model, constants);
     compile(passes.triangles, model, constants);
     const BindingSet set = makeBindingSet(device, *passes.triangles.back().pipeline, passLayout(device), bindings);

@@ -1,6 +1,8 @@
 #include "triangles/dice_table.h"
+#include "shared/rates.h"
 #include "triangles/stages.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace relief {
@@ -22,6 +24,8 @@ public:
         table_.faceRuns.resize(model_.faces.size());
         addCornerRuns();
         addEdgeRuns();
+        for (std::uint32_t run = 0; run < table_.firstSmoothRun; ++run)
+            table_.bicubicSpans.push_back(findBicubicSpan(table_.runs[run]));
         return std::move(table_);
     }
 
@@ -100,6 +104,47 @@ private:
                model_.patchIsRegular[root & ~kLeafBit];
     }
 
+    /// Samples of a run can be told by the patch alone where they belong to the owner and share no direction with other
+    /// faces.
+    [[nodiscard]] BicubicSpan findBicubicSpan(const VertexRun& run) const {
+        if (run.isCorner != 0 || model_.isTriangles() || model_.function) return {};
+        const Edge& edge = model_.edges[run.element];
+        const Incidence& owner = edge.owner;
+        const std::uint32_t root = model_.faces[owner.face].root;
+        if (edge.incidenceCount > 0 || run.incidence.face != owner.face || run.incidence.side != owner.side ||
+            root == kNoPatch)
+            return {};
+        // What lies between the other patches at both ends: they are there, around extraordinary vertices.
+        constexpr float kMargin = 1e-5f; // a device may round t otherwise
+        BicubicSpan span{-1, 2};
+        for (const TreeLeaf& leaf : leavesOf(model_.tree, root)) {
+            if (model_.patchIsRegular[leaf.patchIndex] || !meetsSide(leaf, owner.side)) continue;
+            const float from = toEdge(owner, firstAlong(leaf, owner.side)), size = std::ldexp(1.0f, -int(leaf.depth)),
+                        to = from + size / std::abs(owner.end - owner.start);
+            if (to <= 0 || from >= 1) continue;
+            if (from <= 0)
+                span.low = std::max(span.low, to + kMargin);
+            else
+                span.high = std::min(span.high, from - kMargin);
+        }
+        return span;
+    }
+
+    static bool meetsSide(const TreeLeaf& leaf, std::uint32_t side) {
+        const std::uint32_t last = (1u << leaf.depth) - 1;
+        return side == 0 ? leaf.v == 0 : side == 1 ? leaf.u == last : side == 2 ? leaf.v == last : leaf.u == 0;
+    }
+
+    /// Where a leaf begins along a side of its face, in the side's direction.
+    static float firstAlong(const TreeLeaf& leaf, std::uint32_t side) {
+        const std::uint32_t last = (1u << leaf.depth) - 1;
+        const std::uint32_t cell = side == 0 ? leaf.u : side == 1 ? leaf.v : side == 2 ? last - leaf.u : last - leaf.v;
+        return std::ldexp(float(cell), -int(leaf.depth));
+    }
+
+    /// t of an edge at x of its owner's side.
+    static float toEdge(const Incidence& owner, float x) { return (x - owner.start) / (owner.end - owner.start); }
+
     void addRunsOf(std::uint32_t edge) {
         for (std::size_t i = 0; i < incidences_.of(edge).size(); ++i) {
             const Incidence& incidence = incidences_.of(edge)[i];
@@ -116,6 +161,15 @@ private:
 };
 
 } // namespace
+
+std::pair<std::uint32_t, std::uint32_t> samplesIn(const BicubicSpan& span, std::uint32_t n, float rate) {
+    if (span.low >= span.high) return {1, 1};
+    std::uint32_t first = 1;
+    while (first < n && formulas::sampleParameter(first, n, rate) <= span.low) ++first;
+    std::uint32_t end = first;
+    while (end < n && formulas::sampleParameter(end, n, rate) < span.high) ++end;
+    return {first, end};
+}
 
 DiceTable makeDiceTable(Device& device, const SurfaceModel& model) {
     DiceTable table = TableBuilder(model).build();

@@ -6,12 +6,21 @@
 
 namespace relief {
 
+/// Which samples of an edge surely lie in bicubic patches: those at low < t < high. None do where low >= high.
+struct BicubicSpan {
+    float low = 1, high = 0;
+};
+
+/// The samples of an edge of n segments that lie in a span: the first one, and one past the last.
+std::pair<std::uint32_t, std::uint32_t> samplesIn(const BicubicSpan& span, std::uint32_t n, float rate);
+
 struct DiceTable {
     std::vector<VertexRun> runs; ///< those of corners first
     std::uint32_t cornerRunCount = 0;
-    std::uint32_t firstSmoothRun = 0; ///< from here on: of smooth edges whose owner is one bicubic patch
-    std::vector<FaceRuns> faceRuns;   ///< one per face
-    TexelBuffer texels;               ///< runs, then those around faces
+    std::uint32_t firstSmoothRun = 0;      ///< from here on: of smooth edges whose owner is one bicubic patch
+    std::vector<BicubicSpan> bicubicSpans; ///< one per run before the smooth ones
+    std::vector<FaceRuns> faceRuns;        ///< one per face
+    TexelBuffer texels;                    ///< runs, then those around faces
     std::uint32_t firstFaceRuns = 0;
 };
 

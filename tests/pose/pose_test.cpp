@@ -95,6 +95,15 @@ TEST(StencilBlocks, ofOneSizeLieTogetherInEights) {
     EXPECT_EQ(block, blocks.blockCount());
 }
 
+TEST(StencilBlocks, ofASizeThatFewHaveGetTheNextSize) {
+    const Surface surface = buildSurface(poles(9), {.isolation = 4});
+    const StencilBlocks blocks = stencilBlocks(surface.stencils);
+    ASSERT_LT(blocks.blockCount(), 1000u);
+    // One size for all that straight code is made for, and the sizes of larger ones.
+    for (std::size_t i = 1; i < blocks.classes.size(); ++i) EXPECT_GT(blocks.classes[i].entryCount, 32u);
+    ASSERT_FALSE(blocks.classes.empty());
+}
+
 // --- poses ---------------------------------------------------------------------------------------------------------
 
 class Poses : public OnDevice {};

@@ -84,6 +84,20 @@ TEST(FlatArrays, KeepOnlyPointsThatSomePatchUses) {
     }
 }
 
+TEST(FlatArrays, HaveRowsOfTheSamePointsSideBySide) {
+    for (const Family& family : allFamilies()) {
+        const Stencils stencils = buildSurface(family.cage, {family.scheme, 3}).stencils;
+        std::uint32_t before = 0; // lowest point of the row before
+        for (std::size_t row = stencils.sharedRowCount; row < stencils.rowCount(); ++row) {
+            const auto first = stencils.indices.begin();
+            const std::uint32_t lowest =
+                *std::min_element(first + stencils.offsets[row], first + stencils.offsets[row + 1]);
+            ASSERT_GE(lowest, before) << family.name << " row " << row;
+            before = lowest;
+        }
+    }
+}
+
 TEST(FlatArrays, MapFacesBackToTheCage) {
     const Surface surface = buildSurface(prism(5), {});
     std::vector<int> counts(7);
