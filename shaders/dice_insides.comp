@@ -42,6 +42,9 @@ void main() {
 
 #else
 
+// Not for SwiftShader, which reads tables from storage buffers and takes minutes to compile this.
+#ifndef RELIEF_STORAGE_TABLES
+
 // Rates along u and v that samples inside a face are spaced by.
 vec2 ratesInside(uint face) {
     Face record = fetchFace(face);
@@ -105,15 +108,19 @@ void diceColumns(InsideTile tile, PatchPoints patchPoints) {
     }
 }
 
+#endif
+
 void main() {
     InsideTile tile = fetchInsideTile(gl_WorkGroupID.x + push.first);
     PatchPoints patchPoints = fetchPatch(tile.patchIndex, inputs.model.pointsNow);
     if (kIsCommon) patchPoints.surface.type = patchPoints.texture.type = kPatchRegular;
     loadTile(patchPoints);
+#ifndef RELIEF_STORAGE_TABLES
     if (kIsCommon) {
         diceColumns(tile, patchPoints);
         return;
     }
+#endif
     uvec2 first = halvesOf(tile.firstIJ), size = halvesOf(tile.sizeIJ);
     float scale = float(1u << tile.depth);
     vec2 origin = vec2(halvesOf(tile.origin));

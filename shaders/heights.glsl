@@ -6,8 +6,7 @@
 
 layout(constant_id = kIdMapFormat) const uint kMapFormat = kMapReal; // kMap...
 
-// Two words by one fetch: on Mesa's CPU driver fetches of 32 bits, which use the processor's gather instruction, take twice the
-// time of wider ones.
+// Words are fetched in pairs, for neighbouring texels of small formats lie in the same one.
 RELIEF_TABLE(kBindHeight, uvec2, wordsAt)
 
 struct HeightSample {
@@ -103,7 +102,7 @@ HeightSample sampleLevel(uint map, vec2 st, uint number) {
 #endif
 
 // Between two levels of the map. Both are always read, one after the other and not in a loop: a processor then waits for the
-// memory of both at once.
+// memory of both at once. SwiftShader, which reads tables from storage buffers, takes minutes to compile that; it gets the loop.
 HeightSample sampleHeight(vec2 st, float level) {
     uint map = mapAt(st);
     if (!kHasMips) return sampleLevel(map, st, 0u);
@@ -111,8 +110,20 @@ HeightSample sampleHeight(vec2 st, float level) {
     level = clamp(level, 0.0, last);
     float lower = floor(level);
     precise float f = level - lower;
+#ifdef RELIEF_STORAGE_TABLES
+    HeightSample s = HeightSample(0.0, vec2(0));
+    for (uint i = 0u; i < (f > 0.0 ? 2u : 1u); ++i) {
+        precise float weight = i == 0u ? 1.0 - f : f;
+        HeightSample one = sampleLevel(map, st, uint(lower) + i);
+        precise float h = s.h + weight * one.h;
+        s.h = h;
+        s.gradient += weight * one.gradient;
+    }
+    return s;
+#else
     HeightSample fine = sampleLevel(map, st, uint(lower)), coarse = sampleLevel(map, st, uint(min(lower + 1.0, last)));
     precise float h = (1.0 - f) * fine.h + f * coarse.h;
     return HeightSample(h, (1.0 - f) * fine.gradient + f * coarse.gradient);
+#endif
 }
 #endif

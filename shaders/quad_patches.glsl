@@ -62,25 +62,26 @@ RowSums sumRow(ControlPoints points, uint row, CurveWeights u) {
     return RowSums(x, xu, xuu);
 }
 
+// Adds row `row` times its weights along v.
+void addRow(inout LimitFrame f, RowSums sums, CurveWeights v, uint row) {
+    precise vec3 p = f.p + v.w[row] * sums.x, pu = f.pu + v.w[row] * sums.xu, pv = f.pv + v.d[row] * sums.x;
+    precise vec3 puu = f.puu + v.w[row] * sums.xuu, puv = f.puv + v.d[row] * sums.xu, pvv = f.pvv + v.dd[row] * sums.x;
+    f = LimitFrame(p, pu, pv, puu, puv, pvv);
+}
+
 LimitFrame frameOfRows(RowSums rows[4], CurveWeights v) {
-    precise LimitFrame f = kNoFrame;
-    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        f.p += v.w[row] * rows[row].x;
-        f.pu += v.w[row] * rows[row].xu;
-        f.pv += v.d[row] * rows[row].x;
-        f.puu += v.w[row] * rows[row].xuu;
-        f.puv += v.d[row] * rows[row].xu;
-        f.pvv += v.dd[row] * rows[row].x;
-    }
+    LimitFrame f = kNoFrame;
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addRow(f, rows[row], v, row);
     return f;
 }
 
+// Row by row, without an array of them: SwiftShader compiles arrays in loops for minutes.
 LimitFrame regular(ControlPoints points, vec2 uv) {
     CurveWeights u, v;
     regularWeights(uv, points.boundary, u, v);
-    RowSums rows[4];
-    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) rows[row] = sumRow(points, row, u);
-    return frameOfRows(rows, v);
+    LimitFrame f = kNoFrame;
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addRow(f, sumRow(points, row, u), v, row);
+    return f;
 }
 
 // The frame of the texture coordinates on such a patch: two components, first derivatives.
@@ -94,22 +95,24 @@ TexRowSums sumTexRow(ControlPoints points, uint row, CurveWeights u) {
     return TexRowSums(u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d, u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d);
 }
 
+void addTexRow(inout LimitFrame f, TexRowSums sums, CurveWeights v, uint row) {
+    f.p.xy += v.w[row] * sums.x;
+    f.pu.xy += v.w[row] * sums.xu;
+    f.pv.xy += v.d[row] * sums.x;
+}
+
 LimitFrame texFrameOfRows(TexRowSums rows[4], CurveWeights v) {
-    vec2 st = vec2(0), su = vec2(0), sv = vec2(0);
-    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) {
-        st += v.w[row] * rows[row].x;
-        su += v.w[row] * rows[row].xu;
-        sv += v.d[row] * rows[row].x;
-    }
-    return LimitFrame(vec3(st, 0), vec3(su, 0), vec3(sv, 0), vec3(0), vec3(0), vec3(0));
+    LimitFrame f = kNoFrame;
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addTexRow(f, rows[row], v, row);
+    return f;
 }
 
 LimitFrame regularTexture(ControlPoints points, vec2 uv) {
     CurveWeights u, v;
     regularWeights(uv, points.boundary, u, v);
-    TexRowSums rows[4];
-    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) rows[row] = sumTexRow(points, row, u);
-    return texFrameOfRows(rows, v);
+    LimitFrame f = kNoFrame;
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addTexRow(f, sumTexRow(points, row, u), v, row);
+    return f;
 }
 
 // --- Gregory patches ------------------------------------------------------------------------------------------------
