@@ -20,7 +20,7 @@ uint runOf(uint vertex) {
     return low;
 }
 
-#ifndef RELIEF_TRIANGLES
+#if !defined(RELIEF_TRIANGLES) && !defined(RELIEF_STORAGE_TABLES)
 
 void dicePiece(EdgePiece piece) {
     uint edge = fetchRun(piece.run).element, firstVertex = firstVertexOf(piece.run);
@@ -38,7 +38,7 @@ void dicePiece(EdgePiece piece) {
 #endif
 
 void main() {
-#ifndef RELIEF_TRIANGLES
+#if !defined(RELIEF_TRIANGLES) && !defined(RELIEF_STORAGE_TABLES)
     if (kIsCommon) {
         uvec4 a = tileTexel(push.first + gl_WorkGroupID.x);
         dicePiece(EdgePiece(a.x, a.y, a.z, a.w));

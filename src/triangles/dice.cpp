@@ -41,8 +41,10 @@ struct Work {
 
 class WorkBuilder {
 public:
-    WorkBuilder(const SurfaceModel& model, const DiceTable& table, const EdgeRates& rates)
-        : model_(model), table_(table), rates_(rates) {}
+    /// `makesPieces`: dice_edges.comp has code for pieces (not where tables are storage buffers: SwiftShader takes long
+    /// to compile it).
+    WorkBuilder(const SurfaceModel& model, const DiceTable& table, const EdgeRates& rates, bool makesPieces)
+        : model_(model), table_(table), rates_(rates), makesPieces_(makesPieces) {}
 
     Work build() {
         addRuns();
@@ -76,7 +78,8 @@ private:
         const std::uint32_t edge = table_.runs[run].element, vertex = work_.runFirsts[run];
         if (table_.runs[run].isCorner != 0) return work_.otherVertices.push_back(vertex);
         const std::uint32_t n = rates_.segments(edge);
-        const auto [first, end] = samplesIn(table_.bicubicSpans[run], n, rates_.rates[edge]);
+        const auto [first, end] =
+            makesPieces_ ? samplesIn(table_.bicubicSpans[run], n, rates_.rates[edge]) : std::pair{n, n};
         if (first < end) work_.pieces.push_back({run, first, end, 0});
         for (std::uint32_t k = 1; k < n; ++k)
             if (k < first || k >= end) work_.otherVertices.push_back(vertex + k - 1);
@@ -158,6 +161,7 @@ private:
     const SurfaceModel& model_;
     const DiceTable& table_;
     const EdgeRates& rates_;
+    bool makesPieces_;
     Work work_;
 };
 
@@ -288,7 +292,8 @@ void Dicer::Parts::compile(std::vector<Pass>& passes, const SurfaceModel& model,
 DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options) {
     // What there is to do, and whether the memory allowed holds it.
     const DiceTable& table = tableOf(model);
-    const Work work = WorkBuilder(model, table, rates).build();
+    const Work work =
+        WorkBuilder(model, table, rates, device.traits().readsTablesAs == TableAccess::texelBuffers).build();
     checkMemory(device, byteCountOf(model, work, options), work, options.memory);
     DicedMesh mesh = allocateMesh(device, model, work, options);
     if (options.wantsFaces) mesh.faces = facePushes(table, model, rates, work.runFirsts, work.firstInsides);
