@@ -61,7 +61,7 @@ TEST_F(Drawn, everyMapFormatDrawsTheSameInItsOwnBytes) {
         const nlohmann::json json =
             jsonOf(relief({"render", cagePath("ball"), "--height", folder_ / "h.exr", "-o", target},
                           std::string("--scale 0.1 --size 96,96 --rate 8 --json --map-format ") + format));
-        EXPECT_EQ(json.at("map_bytes"), bytes) << format;
+        EXPECT_EQ(json.at("map_bytes"), (bytes + 7) / 8 * 8) << format; // words are kept in pairs
         EXPECT_EQ(json.at("map_format"), format);
         // A block of BC4 keeps eight heights: its slopes are rough.
         EXPECT_LT(differingShare(readImage(target), floats), format == std::string("bc4") ? 0.12 : 0.005) << format;
