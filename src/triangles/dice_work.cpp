@@ -36,9 +36,9 @@ public:
             if (model_.faces[face].root != kNoPatch) addFace(face);
         }
         work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
-        const auto others =
-            std::ranges::stable_partition(work_.insides, [&](const InsideTile& tile) { return isRegular(tile); });
-        work_.regularCount = work_.insides.size() - others.size();
+        const auto others = std::stable_partition(work_.insides.begin(), work_.insides.end(),
+                                                  [&](const InsideTile& tile) { return isRegular(tile); });
+        work_.regularCount = std::size_t(others - work_.insides.begin());
         return std::move(work_);
     }
 

@@ -38,14 +38,24 @@ double calmMeanOf(const std::string& golden) { return golden == "ball_albedo" ? 
 
 TEST_P(SecondDriver, drawsTheGoldens) {
     const Golden& golden = GetParam();
-    if (contains(golden.words, "--path tessellation")) GTEST_SKIP() << kDevice << " has no tessellation shaders";
     const std::string drawn = drawGolden(scenes_, golden.name, golden.words, kDevice);
     if (HasFailure()) return;
     expectGolden(drawn, golden.name,
                  [&](const Comparison& c) { return isSameOfAnotherDriver(c, calmMeanOf(golden.name)); });
 }
 
-INSTANTIATE_TEST_SUITE_P(Pictures, SecondDriver, ::testing::ValuesIn(kGoldens),
+/// Each picture compiles its shaders anew, for ten seconds and more: those that show something of their own. Loop
+/// surfaces and adaptive rates are the zoo's.
+std::vector<Golden> goldensOfSecondDriver() {
+    std::vector<Golden> all;
+    for (const Golden& golden : kGoldens)
+        for (const std::string_view name :
+             {"cube_creases_grid", "torus_waves_grid", "lantern_grid", "ball_albedo", "lantern_faces", "torus_normal"})
+            if (name == golden.name) all.push_back(golden);
+    return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Pictures, SecondDriver, ::testing::ValuesIn(goldensOfSecondDriver()),
                          [](const auto& info) { return std::string(info.param.name); });
 
 using SecondDriverPromises = SecondDriver;
