@@ -84,8 +84,7 @@ void drawInTile(ScreenVertex a, ScreenVertex b, ScreenVertex c, uint triangle, i
     if (size.x <= 0 || size.y <= 0) return;
     for (int k = int(gl_LocalInvocationID.x); k < size.x * size.y; k += int(gl_WorkGroupSize.x)) {
         ivec2 pixel = first + ivec2(k % size.x, k / size.x);
-        [[unroll]] for (uint s = 0u; s < kMostSamples; ++s) {
-            if (s >= sampleCount()) continue;
+        for (uint s = 0u; s < sampleCount(); ++s) {
             ivec2 p = 256 * pixel + placeOf(s);
             int64_t ea = edgeAt(b.p, c.p, p), eb = edgeAt(c.p, a.p, p), ec = edgeAt(a.p, b.p, p);
             if (ea + int64_t(bias.x) < 0l || eb + int64_t(bias.y) < 0l || ec + int64_t(bias.z) < 0l) continue;

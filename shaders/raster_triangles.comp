@@ -101,5 +101,6 @@ void main() {
         uint number = atomicAdd(inputs.targets.largeTriangles.at[kLargeCount], 1u);
         atomicMax(inputs.targets.largeTriangles.at[0], min(number + 1u, kMostLargeGroups));
         inputs.targets.largeTriangles.at[kLargeFirst + number] = triangle;
+        inputs.targets.largeTriangles.at[kLargeSeen] = 1u;
     }
 }

@@ -37,7 +37,7 @@ RELIEF_CONSTANT uint kIdReadsRest = 24u; // heights depend on the rest pose, and
 RELIEF_CONSTANT uint kIdReadsSampleBuffers = 25u; // light: samples are those of raster_*.comp
 RELIEF_CONSTANT uint kIdWritesIds = 26u;          // raster: samples are numbers of triangles, for raster_resolve.comp
 RELIEF_CONSTANT uint kIdHasSampleColors = 27u;    // light: samples in buffers have colours of their own
-RELIEF_CONSTANT uint kIdReadsShadowCodes = 28u; // light: the shadow map is that of raster_*.comp
+RELIEF_CONSTANT uint kIdReadsShadowCodes = 28u;   // light: the shadow map is that of raster_*.comp
 RELIEF_CONSTANT uint kIdCount = 29u;
 
 // What a picture shows (--show).
@@ -68,9 +68,10 @@ RELIEF_CONSTANT uint kNormalMapObject = 2u;
 // raster_*.comp: the list of triangles for raster_large.comp. Its first three words are the workgroups of that
 // dispatch.
 RELIEF_CONSTANT uint kLargeCount = 3u;          // word: triangles in the list
-RELIEF_CONSTANT uint kLargeFirst = 4u;          // word: the first one
+RELIEF_CONSTANT uint kLargeSeen = 4u;           // word: 1 where a pass of the picture has listed any
+RELIEF_CONSTANT uint kLargeFirst = 5u;          // word: the first one
 RELIEF_CONSTANT uint kMostLargeGroups = 65535u; // that a dispatch may have on every device
-RELIEF_CONSTANT int kLargeTile = 512;           // pixels each way that one of its workgroups fills
+RELIEF_CONSTANT int kLargeTile = 256;           // pixels each way that one of its workgroups fills
 
 RELIEF_CONSTANT float kShadowCodes = 65535.0f; // depths of a shadow map are stored as whole numbers up to this
 

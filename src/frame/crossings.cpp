@@ -53,6 +53,7 @@ std::vector<int> Renderer::Parts::crossingsInCompute(Frame& frame) {
     std::vector<int> crossings(std::size_t(desc.width) * std::size_t(desc.height));
     const Buffer sums = makeBuffer(device, {.name = "crossings", .bytes = crossings.size() * 4, .usage = usage});
     for (Drawn& drawn : frame.drawn) drawn.inputs.targets.crossings = sums.address;
+    drawsLarge = true;
     makeSets(frame, DrawPass::cracks);
     device.submitAndWait([&](VkCommandBuffer commands) {
         writeInputs(commands, frame);

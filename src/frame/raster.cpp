@@ -1,6 +1,7 @@
 // The compute rasterizer: which pictures it makes, and its dispatches. Its arithmetic is in shaders/raster*.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "frame/renderer_parts.h"
 
@@ -140,7 +141,7 @@ void Renderer::Parts::makeMeshBuffers(const Frame& frame) {
             makeBuffer(device, {.name = "large triangles",
                                 .bytes = largeBytes,
                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
-                                         VK_BUFFER_USAGE_TRANSFER_DST_BIT});
+                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
 }
 
 const Pipeline& Renderer::Parts::rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn,
@@ -176,11 +177,12 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
     };
     // No large triangles yet; as many tiles as the picture has.
     const uvec2 tiles = (targetSize + uvec2(kLargeTile - 1)) / uvec2(kLargeTile);
-    const std::uint32_t none[kLargeFirst] = {0, tiles.x * tiles.y, 1, 0};
+    const std::uint32_t none[] = {0, tiles.x * tiles.y, 1, 0};
     vkCmdUpdateBuffer(commands, buffers->large.handle.get(), 0, sizeof(none), none);
     const MeshSize mesh = meshSizeOf(drawn);
     dispatch("raster_vertices.comp", mesh.vertexCount);
     dispatch("raster_triangles.comp", mesh.triangleCount);
+    if (!drawsLarge) return;
     const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, pass);
     bind(commands, large, drawn.set);
     pushConstants(commands, large, block);
@@ -192,6 +194,27 @@ void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, Dr
                                 uvec2 targetSize) {
     vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, 0); // nothing, farthest depth
     for (const Drawn& drawn : frame.drawn) rasterizeMesh(commands, frame, drawn, pass, targetSize);
+}
+
+/// Records and submits the picture. The shader for large triangles takes long to compile and few pictures need it: it
+/// is left out until a picture has some, which is then drawn again.
+void Renderer::Parts::submit(Frame& frame) {
+    if (!frame.rastersInCompute()) {
+        device.submitAndWait([&](VkCommandBuffer commands) { record(commands, frame); });
+        return;
+    }
+    const Download seen(device, (kLargeSeen + 1) * 4);
+    for (;;) {
+        device.submitAndWait([&](VkCommandBuffer commands) {
+            vkCmdFillBuffer(commands, buffers->large.handle.get(), kLargeSeen * 4, 4, 0);
+            record(commands, frame);
+            seen.record(commands, buffers->large);
+        });
+        std::uint32_t words[kLargeSeen + 1];
+        std::memcpy(words, seen.bytes().data(), sizeof(words));
+        if (drawsLarge || words[kLargeSeen] == 0) return;
+        drawsLarge = true;
+    }
 }
 
 /// Normals and colours of the triangles that samples name.

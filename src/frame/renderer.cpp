@@ -192,7 +192,7 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
     // What makes samples of them.
     chooseRasters(frame);
     useImages(frame);
-    if (frame.raster == Raster::compute || frame.shadowRaster == Raster::compute) useBuffers(frame);
+    if (frame.rastersInCompute()) useBuffers(frame);
     return frame;
 }
 
@@ -290,7 +290,7 @@ Picture Renderer::render(std::span<const Instance> instances, const RenderOption
     const double start = secondsNow();
     Parts::Frame frame = parts.prepare(instances, options);
     parts.makeSets(frame, DrawPass::surface);
-    parts.device.submitAndWait([&](VkCommandBuffer commands) { parts.record(commands, frame); });
+    parts.submit(frame);
     Picture picture = parts.read(frame);
     picture.stats.wallMs = 1e3 * (secondsNow() - start);
     return picture;

@@ -19,6 +19,7 @@ struct Renderer::Parts {
     std::optional<SampleImages> images; ///< these and the others are made when a picture first needs them
     std::optional<Texture> shadow;
     std::optional<SampleBuffers> buffers;
+    bool drawsLarge = false; ///< compute rasterizer: a picture so far had triangles for raster_large.comp
     PassResources resources;
     std::vector<Buffer> inputBuffers; ///< one per instance, and one for the passes over pixels
     Owned<VkSampler> around, nearest;
@@ -81,6 +82,9 @@ struct Renderer::Parts {
         bool writesIds = false; ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
 
         [[nodiscard]] bool hasInstances() const { return drawn.size() > 1; }
+        [[nodiscard]] bool rastersInCompute() const {
+            return raster == Raster::compute || shadowRaster == Raster::compute;
+        }
         [[nodiscard]] bool castsShadows() const { return options.lighting.castsShadows && technique.isLit; }
     };
 
@@ -127,6 +131,7 @@ struct Renderer::Parts {
     void useBuffers(Frame& frame);
     void makeMeshBuffers(const Frame& frame);
     void resolve(VkCommandBuffer commands, const Frame& frame);
+    void submit(Frame& frame);
     const Pipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
     /// Clears the target of a pass, and writes all instances to it.
     void rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target, uvec2 targetSize);
