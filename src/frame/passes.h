@@ -36,7 +36,7 @@ struct SampleBuffers {
 };
 
 SampleBuffers makeSampleBuffers(Device& device, const RendererDesc& desc);
-/// As many bytes per pixel.
+/// Makes a table of `pixelBytes` bytes per pixel, not written yet.
 TexelBuffer makeSampleTable(Device& device, const RendererDesc& desc, const char* name, std::uint64_t pixelBytes);
 
 /// Four halves per pixel, mapped.

@@ -57,7 +57,7 @@ std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
                            desc.height);
     if (frame.technique.hasLines) return "it draws no lines";
     if (frame.stats.triangleCount >= kMostIds)
-        return fmt::format("{} triangles are more than it tells apart", frame.stats.triangleCount);
+        return fmt::format("{} triangles are more than samples can number", frame.stats.triangleCount);
     for (const Drawn& drawn : frame.drawn) {
         if (drawn.surface != nullptr && frame.path != Path::dice) return "it takes meshes: --path dice";
         if (drawn.isBentByFunction()) return "the device's own rasterizer evaluates height functions per pixel";

@@ -186,7 +186,7 @@ struct MeshModel {
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
 
-    /// As SurfaceModel::setTime.
+    /// The time that a height function is given, in seconds, and that of the frame that motion is measured from.
     void setTime(double seconds, double before) {
         tables.heightTime = float(seconds), tables.heightTimeBefore = float(before);
     }
