@@ -1,15 +1,13 @@
 // PNG (Portable Network Graphics, third edition): the filter by Paeth, and zlib.
 #include "base/png_write.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <new>
 
 #include <zlib.h>
 
+#include "base/codes.h"
 #include "base/errors.h"
 
 namespace relief {
@@ -27,13 +25,6 @@ void appendChunk(std::string& file, std::string_view type, std::string_view data
     file += type;
     file += data;
     append(file, std::uint32_t(crc32(0, reinterpret_cast<const Bytef*>(&file[start]), uInt(file.size() - start))));
-}
-
-/// The nearest code, halves upwards; what is below 0 or no number becomes 0, what is above 1 the largest code.
-template <typename Code>
-Code toCode(float value) {
-    constexpr auto kLargest = float(std::numeric_limits<Code>::max());
-    return value > 0 ? Code(std::floor(kLargest * std::min(value, 1.0f) + 0.5f)) : Code(0);
 }
 
 /// Writes a row of codes, the high byte first.

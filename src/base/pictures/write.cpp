@@ -1,12 +1,11 @@
 // Encoding pictures: TIFF and EXR.
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include "base/base.h"
+#include "base/codes.h"
 #include "base/pictures/module.h"
 
 namespace relief::pictures {
@@ -23,13 +22,10 @@ OIIO::TypeDesc sampleDesc(SampleType sample) {
     fail(Failure::internal, "sample type {} does not exist", int(sample));
 }
 
-/// The nearest codes, halves upwards; what is below 0 or no number becomes 0, what is above 1 the largest code.
 template <typename Code>
 bool writeCodes(OIIO::ImageOutput& output, OIIO::TypeDesc type, const std::vector<float>& texels) {
-    constexpr auto kLargest = float(std::numeric_limits<Code>::max());
     std::vector<Code> codes(texels.size());
-    std::transform(texels.begin(), texels.end(), codes.begin(),
-                   [](float x) { return x > 0 ? Code(std::floor(kLargest * std::min(x, 1.0f) + 0.5f)) : Code(0); });
+    std::transform(texels.begin(), texels.end(), codes.begin(), toCode<Code>);
     return output.write_image(type, codes.data());
 }
 
