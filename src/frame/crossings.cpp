@@ -1,6 +1,7 @@
 // Front faces less back faces per pixel, by draws of the device and by the compute rasterizer.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/gtc/packing.hpp>
 
@@ -53,12 +54,13 @@ std::vector<int> Renderer::Parts::crossingsInCompute(Frame& frame) {
     std::vector<int> crossings(std::size_t(desc.width) * std::size_t(desc.height));
     const Buffer sums = makeBuffer(device, {.name = "crossings", .bytes = crossings.size() * 4, .usage = usage});
     for (Drawn& drawn : frame.drawn) drawn.inputs.targets.crossings = sums.address;
-    drawsLarge = true;
+    const bool drewLarge = std::exchange(drawsLarge, true); // this pass is not drawn again
     makeSets(frame, DrawPass::cracks);
     device.submitAndWait([&](VkCommandBuffer commands) {
         writeInputs(commands, frame);
         rasterize(commands, frame, DrawPass::cracks, sums, size());
     });
+    drawsLarge = drewLarge;
     downloadBytes(device, sums, std::as_writable_bytes(std::span(crossings)));
     return crossings;
 }
