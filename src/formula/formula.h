@@ -37,7 +37,7 @@ FunctionText readHeightFunction(const std::string& nameOrPath);
 // --- compiled -----------------------------------------------------------------------------------------------------
 
 /// A height function and the shaders that contain it. Each shader is compiled when it is first asked for, and kept in
-/// a folder of the user (shaderCacheFolder) for the next process.
+/// a folder of the user (cacheFolder) for the next process.
 class HeightFunction {
 public:
     /// Compiles the function alone.
@@ -70,10 +70,6 @@ private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
-
-/// Where compiled shaders are kept: the folder $RELIEF_CACHE, else relief in $XDG_CACHE_HOME or in $HOME/.cache. Empty,
-/// which keeps nothing, where RELIEF_CACHE is 0 or none of them is set. It may be deleted at any time.
-std::string shaderCacheFolder();
 
 // --- values -------------------------------------------------------------------------------------------------------
 

@@ -39,7 +39,7 @@ Header headerOf(const Digest& digest, std::span<const std::uint32_t> words) {
     return header;
 }
 
-std::string pathOf(const Digest& digest) { return shaderCacheFolder() + "/" + digest.name() + ".spv"; }
+std::string pathOf(const Digest& digest) { return cacheFolder() + "/" + digest.name() + ".spv"; }
 
 } // namespace
 
@@ -55,10 +55,8 @@ void Digest::add(std::string_view text) {
 
 std::string Digest::name() const { return fmt::format("{:016x}{:016x}", halves[0], halves[1]); }
 
-std::string shaderCacheFolder() { return cacheFolder(); }
-
 std::optional<std::vector<std::uint32_t>> readCachedShader(const Digest& digest) {
-    if (shaderCacheFolder().empty()) return {};
+    if (cacheFolder().empty()) return {};
     std::string bytes;
     std::error_code ignored;
     if (!fs::is_regular_file(pathOf(digest), ignored)) return {};
@@ -77,7 +75,7 @@ std::optional<std::vector<std::uint32_t>> readCachedShader(const Digest& digest)
 }
 
 void writeCachedShader(const Digest& digest, std::span<const std::uint32_t> words) {
-    const std::string folder = shaderCacheFolder();
+    const std::string folder = cacheFolder();
     std::error_code error;
     if (folder.empty() || (fs::create_directories(folder, error), error)) return;
     const Header header = headerOf(digest, words);

@@ -280,7 +280,7 @@ TEST_F(HeightFunctions, areCompiledAgainWhereTheCacheIsDamaged) {
 
 TEST_F(HeightFunctions, areNotKeptWhereThatIsNotWanted) {
     setenv("RELIEF_CACHE", "0", 1);
-    EXPECT_EQ(shaderCacheFolder(), "");
+    EXPECT_EQ(cacheFolder(), "");
     for (int i = 0; i < 2; ++i) EXPECT_EQ(HeightFunction({"test.glsl", kHeight}).costs().compiledCount, 1);
     EXPECT_EQ(folder_.fileCount(), 0u);
 }
