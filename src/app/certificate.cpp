@@ -227,7 +227,8 @@ std::string toText(const Certificate& local) {
     const Certificate c = inWorldUnits(local);
     std::string text = fmt::format("{}{} on {}\n", c.cage, c.height.empty() ? "" : " with " + c.height, c.device);
     text += "watertight\n" + makePathTable(c);
-    text += "exact, against a double-precision reference\n" + makeRegionTable("outside end caps", c.frames.regular) +
+    text += "exact, against a double-precision reference\n" +
+            makeRegionTable(c.frames.endCaps.count > 0 ? "outside end caps" : "everywhere", c.frames.regular) +
             makeRegionTable("in end caps", c.frames.endCaps) + makeCornerText(c.corners);
     if (!c.height.empty()) text += "one-to-one\n" + makeCurvatureText(c.curvature);
     if (c.seams) text += "seams\n" + makeSeamText(*c.seams, c.displacementBound);

@@ -8,8 +8,8 @@ namespace relief {
 namespace {
 
 struct Leaf {
-    std::uint32_t type = 0; ///< of its patch, kPatch...
-    vec2 uv{0};             ///< in the patch
+    const Patch* patch = nullptr;
+    vec2 uv{0}; ///< in the patch
 };
 
 /// Descends the face's tree as shared/surface.h draws it.
@@ -27,14 +27,18 @@ Leaf leafAt(const Surface& surface, const SampleQuery& query) {
         }
         entry = surface.tree[entry + child];
     }
-    return {surface.patches[entry & ~kLeafBit].type, uv};
+    return {&surface.patches[entry & ~kLeafBit], uv};
 }
 
-/// The second derivatives of a Gregory patch have no value in its corners.
+/// The second derivatives of a Gregory patch have no value in its corners, nor have those of the surface at an
+/// extraordinary vertex.
 bool hasCurvature(const Surface& surface, const SampleQuery& query) {
     const Leaf leaf = leafAt(surface, query);
     const auto isEnd = [](float x) { return x <= 0 || x >= 1; };
-    const bool isGregory = leaf.type == kPatchGregory || leaf.type == kPatchGregoryTriangle;
+    const std::uint32_t type = leaf.patch->type;
+    if (type == kPatchExactQuad || type == kPatchExactTriangle)
+        return dvec2(leaf.uv) != sidePoint(surface.sideCount, int(leaf.patch->cap % 4), 0);
+    const bool isGregory = type == kPatchGregory || type == kPatchGregoryTriangle;
     return !(isGregory && isEnd(leaf.uv.x) && isEnd(leaf.uv.y));
 }
 

@@ -141,7 +141,8 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     if (isDense) {
         object.dense = denseMesh(object.cage);
     } else {
-        object.options = {.scheme = toScheme(subdivision), .isolation = desc.isolation};
+        const int isolation = desc.isolation.value_or(neededIsolation(object.cage, desc.endCaps));
+        object.options = {.scheme = toScheme(subdivision), .isolation = isolation, .endCaps = desc.endCaps};
         object.surface = buildNamedSurface(object, desc.cage);
     }
     object.loadSeconds = loadEnd - start;

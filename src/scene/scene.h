@@ -66,7 +66,8 @@ struct MaterialDesc {
 struct ObjectDesc {
     std::string cage;                       ///< path
     std::optional<Subdivision> subdivision; ///< default: none for a mesh of triangles, else catmark
-    int isolation = SurfaceOptions().isolation;
+    std::optional<int> isolation;           ///< default: neededIsolation()
+    EndCapKind endCaps = SurfaceOptions().endCaps;
     std::optional<Distance> weld; ///< joins boundary vertices at most so far apart; default: vertices stay as they are
     HeightDesc height;
     MaterialDesc material;

@@ -18,6 +18,11 @@ inline constexpr Word<Subdivision> kSubdivisions[] = {
     {"none", Subdivision::none, "the polygons themselves, which a height map cannot displace"},
 };
 
+inline constexpr Word<EndCapKind> kEndCaps[] = {
+    {"exact", EndCapKind::exact, "the limit surface"},
+    {"gregory", EndCapKind::gregory, "OpenSubdiv's Gregory patches, which approximate it"},
+};
+
 inline constexpr Word<Path> kPaths[] = {
     {"tessellation", Path::tessellation, "by the hardware tessellator, in every pass"},
     {"grid", Path::grid, "by the vertex shader, in every pass"},

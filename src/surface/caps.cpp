@@ -236,6 +236,19 @@ MatrixXd smoothTangents(const CapPattern& pattern, const MatrixXd& deflated, con
     return diagonalTangents(pattern.sideCount, 2 * piece * projection);
 }
 
+/// At a sharp vertex in the midst of smooth edges, which is the tip of a needle: along the needle, and around it, which
+/// shrinks faster.
+MatrixXd needleTangents(const CapPattern& pattern, const MatrixXd& deflated, const MatrixXd& piece) {
+    const MatrixXd along = dominantProjection(deflated);
+    const MatrixXd around = dominantProjection(deflated - deflated * along);
+    const MatrixXd a = diagonalTangents(pattern.sideCount, 2 * piece * along);
+    const MatrixXd b = diagonalTangents(pattern.sideCount, 2 * piece * around);
+    const RowVectorXd sum = a.row(0) + a.row(1), difference = b.row(1) - b.row(0);
+    MatrixXd rows(2, deflated.rows());
+    rows << 0.5 * (sum - difference), 0.5 * (sum + difference);
+    return rows;
+}
+
 /// At a crease: along it, and across it. Both turned to lie on either side of the cap's middle, so that they are never
 /// parallel, not even where the two sides of a lone face continue each other.
 MatrixXd creaseTangents(const CapPattern& pattern, const MatrixXd& deflated, const MatrixXd& deepest) {
@@ -287,9 +300,11 @@ std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern) {
     return points;
 }
 
+MatrixXd refinementAround(const CapPattern& pattern) { return CapRefinement(pattern).matrix(); }
+
 CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(pattern) {
     const CapRefinement refinement(pattern);
-    const MatrixXd a = refinement.matrix();
+    const MatrixXd a = refinementAround(pattern);
     limit_ = stationaryRow(a);
     const MatrixXd deflated = a - Eigen::VectorXd::Ones(a.rows()) * limit_;
 
@@ -307,7 +322,7 @@ CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(p
     }
     const MatrixXd deepest = diagonalTangents(pattern.sideCount, levels_[kCapLevels - 1][1]);
     if (pattern.rule == VertexRule::corner)
-        tangents_ = deepest;
+        tangents_ = pattern.isClosed && !pattern.hasDart ? needleTangents(pattern, deflated, pieces[1]) : deepest;
     else if (pattern.rule == VertexRule::crease)
         tangents_ = creaseTangents(pattern, deflated, deepest);
     else

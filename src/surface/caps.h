@@ -59,6 +59,9 @@ std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern);
 
 // Pieces are at (1,0), at (1,1) and at (0,1); of triangles at (1,0), in the middle and at (0,1).
 
+/// The matrix A: the points around a cap of half the size as sums of those around the cap.
+Eigen::MatrixXd refinementAround(const CapPattern& pattern);
+
 /// What Q is made of.
 class CapMatrices {
 public:

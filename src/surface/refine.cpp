@@ -1,5 +1,6 @@
 // From a cage to OpenSubdiv's refined topology, patch table and point values.
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 #include "surface/far.h"
@@ -175,6 +176,21 @@ std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme schem
     std::unique_ptr<Far::TopologyRefiner> refiner(RefinerFactory::Create(describe(cage, texChannel), options));
     if (!refiner) failWithComplaint("the cage's topology cannot be subdivided");
     return refiner;
+}
+
+int neededIsolation(const Cage& cage, EndCapKind endCaps) {
+    constexpr int kSeparating = 2, kApproximating = 6;
+    if (endCaps == EndCapKind::gregory) return kApproximating;
+    std::vector<int> faceCounts(cage.positions.size());
+    for (const std::uint32_t vertex : cage.corners)
+        if (++faceCounts[vertex] > kMostCapFaces) return kApproximating;
+    for (const std::uint32_t size : cage.faceSizes)
+        if (size > std::uint32_t(kMostCapFaces)) return kApproximating;
+    float sharpest = 0;
+    for (const auto* sharpnesses : {&cage.creaseSharpness, &cage.vertexSharpness})
+        for (const float s : *sharpnesses)
+            if (s < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE) sharpest = std::max(sharpest, s);
+    return std::clamp(int(std::ceil(sharpest)), kSeparating, kApproximating);
 }
 
 FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options, int capLevels) {

@@ -18,6 +18,11 @@ enum class EndCapKind {
     gregory ///< OpenSubdiv's patches, which approximate it
 };
 
+/// Levels of adaptive refinement that a cage needs: 2 separate extraordinary vertices from each other, semi-sharp
+/// creases and vertices need as many as their sharpness. 6 with Gregory patches, which only get nearer to the surface
+/// with each level, and with vertices of more faces than exact end caps are made for.
+int neededIsolation(const Cage& cage, EndCapKind endCaps);
+
 struct SurfaceOptions {
     Scheme scheme = Scheme::catmark;
     int isolation = 6; ///< levels of adaptive refinement around features, 0..10

@@ -31,6 +31,32 @@ std::vector<double> bilinearWeights(const dvec2& uv) {
     return {(1 - u) * (1 - v), u * (1 - v), u * v, (1 - u) * v};
 }
 
+/// The value of an exact cap; `point(i)` is its i-th control point.
+template <typename V, typename PointAt>
+V capValue(const Surface& surface, const Patch& patch, const dvec2& uv, const PointAt& point) {
+    const CapTable& table = surface.capTables.at(patch.cap / 4);
+    const std::uint32_t corner = patch.cap % 4;
+    const double w = 1 - uv.x - uv.y;
+    const dvec2 quads[] = {uv, {uv.y, 1 - uv.x}, dvec2(1) - uv, {1 - uv.y, uv.x}},
+                triangles[] = {uv, {uv.y, w}, {w, uv.x}};
+    const dvec2 at = surface.sideCount == 4 ? quads[corner] : triangles[corner];
+    const CapPlace place = placeInCap(surface.sideCount, at.x, at.y, int(kCapLevels));
+    const V limit = point(0);
+    if (place.level == 0) return limit;
+    const std::vector<Jet> basis = pieceBasis(surface.sideCount, place.u, place.v);
+    const std::size_t piece = std::size_t(place.level - 1) * kCapPieces + std::size_t(place.piece);
+    V sum(0);
+    for (std::uint32_t i = 0; i < table.pointCount; ++i)
+        for (std::size_t j = 0; j < basis.size(); ++j)
+            sum +=
+                place.size * basis[j].f *
+                double(surface.capWeights.at(table.firstWeight + (piece * table.pointCount + i) * basis.size() + j)) *
+                (point(i) - limit);
+    return limit + sum;
+}
+
+bool isExactCap(std::uint32_t type) { return type == kPatchExactQuad || type == kPatchExactTriangle; }
+
 } // namespace
 
 Leaf findLeaf(const Surface& surface, std::uint32_t face, dvec2 uv) {
@@ -69,6 +95,10 @@ FlatSurface::FlatSurface(const Cage& cage, const SurfaceOptions& options)
 dvec3 FlatSurface::position(std::uint32_t face, const dvec2& uv) const {
     const Leaf leaf = findLeaf(surface_, face, uv);
     const Patch& patch = surface_.patches.at(leaf.patch);
+    if (isExactCap(patch.type))
+        return capValue<dvec3>(surface_, patch, leaf.uv, [&](std::uint32_t i) {
+            return dvec3(points_.at(surface_.patchPoints.at(patch.firstPoint + i)));
+        });
     const auto w = weights(leaf.patch, leaf, uv);
     dvec3 p(0);
     for (std::size_t i = 0; i < w.size(); ++i)
@@ -79,6 +109,10 @@ dvec3 FlatSurface::position(std::uint32_t face, const dvec2& uv) const {
 dvec2 FlatSurface::texCoord(std::uint32_t face, const dvec2& uv) const {
     const Leaf leaf = findLeaf(surface_, face, uv);
     const Patch& patch = surface_.patches.at(leaf.patch);
+    if (isExactCap(patch.texType))
+        return capValue<dvec2>(surface_, patch, leaf.uv, [&](std::uint32_t i) {
+            return dvec2(surface_.texPoints.at(surface_.texPatchPoints.at(patch.texFirstPoint + i)));
+        });
     const auto w = texWeights(leaf.patch, leaf, uv);
     dvec2 st(0);
     for (std::size_t i = 0; i < w.size(); ++i)

@@ -203,6 +203,11 @@ int Oracle::vertexAt(int face, int i, int j) const {
     return grids_[face].at(i * stride, j * stride);
 }
 
+bool Oracle::hasLimit(int face, int i, int j) const {
+    const auto& level = refiner_->GetLevel(refiner_->GetNumLevels() - 1);
+    return level.GetVertexRule(vertexAt(face, i, j)) != OpenSubdiv::Sdc::Crease::RULE_DART;
+}
+
 dvec2 Oracle::texCoord(int face, int i, int j) const {
     const int last = refiner_->GetNumLevels() - 1, vertex = vertexAt(face, i, j);
     const auto& level = refiner_->GetLevel(last);
