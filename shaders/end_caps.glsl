@@ -4,17 +4,18 @@
 // are sums of differences between the points around the face and the vertex's limit point. The weights depend on n, on the
 // piece and on the rules around the vertex: they are a table. Sums are of the size of the face's sides, whatever n is.
 
-// Texels of the weights of a point: four numbers each.
+// Texels of the weights of a point on a level, of four numbers each.
 #ifdef RELIEF_TRIANGLES
-const uint kCapTexels = 3u;
+const uint kCapTexels = 3u * kCapPieces;
 #else
-const uint kCapTexels = 4u;
+const uint kCapTexels = 6u;
 #endif
 
 // A point's place in a cap: its coordinates there are 0 at the extraordinary vertex.
 struct CapPlace {
     vec2 uv;         // in a piece
-    uint table;      // texel of the weights of that piece and level
+    uint table;      // texel of the weights of that piece and level, or of the vertex
+    bool isUpper;    // the piece at (0,1) of a quad: its first column is apart
     float size;      // of the piece, where the cap is 1
     float bend;      // of second derivatives: 1 / size, less beyond the last level
     float slope;     // -1 in the turned middle of triangles
@@ -64,8 +65,14 @@ CapPlace placeInCap(uvec4 cap, vec2 at) {
     place.uv = xy - vec2(piece == 2u ? 0.0 : 1.0, piece == 0u ? 0.0 : 1.0);
     place.slope = 1.0;
 #endif
-    place.table = cap.x + ((uint(last) - 1u) * kCapPieces + piece) * cap.y * kCapTexels;
-    if (place.isVertex) place.table = cap.x + kCapLevels * kCapPieces * cap.y * kCapTexels;
+    uint level0 = cap.x + (uint(last) - 1u) * cap.y * kCapTexels;
+#ifdef RELIEF_TRIANGLES
+    place.table = level0 + 3u * piece;
+#else
+    place.table = level0 + min(piece, 1u);
+#endif
+    place.isUpper = piece == 2u && !place.isVertex;
+    if (place.isVertex) place.table = cap.x + kCapLevels * cap.y * kCapTexels;
     return place;
 }
 
@@ -134,12 +141,15 @@ LimitFrame exactCap(ControlPoints points, vec2 patchUV) {
     for (uint k = 0u; k < cap.y; ++k) {
         vec3 p = capPoint(points, pointRow(points, k >> 2)[k & 3u]) - limit;
         uint texel = place.table + k * stride;
-        sums.a = addWeighted(sums.a, p, capWeights(texel));
-        sums.b = addWeighted(sums.b, p, capWeights(texel + 1u));
-        sums.c = addWeighted(sums.c, p, capWeights(texel + 2u));
+        vec4 a = capWeights(texel), b = capWeights(texel + 1u), c = capWeights(texel + 2u);
 #ifndef RELIEF_TRIANGLES
-        sums.d = addWeighted(sums.d, p, capWeights(texel + 3u));
+        vec4 d = capWeights(texel + 3u), left = capWeights(texel + 4u);
+        if (place.isUpper) a = vec4(left.x, a.xyz), b = vec4(left.y, b.xyz), c = vec4(left.z, c.xyz), d = vec4(left.w, d.xyz);
+        sums.d = addWeighted(sums.d, p, d);
 #endif
+        sums.a = addWeighted(sums.a, p, a);
+        sums.b = addWeighted(sums.b, p, b);
+        sums.c = addWeighted(sums.c, p, c);
     }
     LimitFrame f = pieceFrame(sums, place.uv);
     vec3 offset = place.size * f.p;

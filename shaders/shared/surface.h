@@ -40,11 +40,12 @@ RELIEF_CONSTANT uint kPatchGregoryTriangle = 10u;
 
 // And those that OpenSubdiv has not: the limit surface in a face with one extraordinary vertex. Their number of control
 // points depends on the vertex. Each pattern of rules around a vertex has a table of weights (Surface::capTables,
-// surface/caps.h): per level 1 .. kCapLevels, piece 0 .. 2 and point, 16 weights of a quad's piece or 12 of a
-// triangle's; then per point the weights of p_u and p_v at the vertex, 2 numbers and 2 that are 0.
+// surface/caps.h): per level 1 .. kCapLevels and point, of quads 24 weights for the control points (x,y) of all pieces,
+// first (0..3,-1), then (0..3,0) to (0..3,3), then (-1,0..3); of triangles 12 per piece. At the end, per point, the
+// weights of p_u and p_v at the vertex and two numbers that are 0.
 RELIEF_CONSTANT uint kPatchExactQuad = 11u;
 RELIEF_CONSTANT uint kPatchExactTriangle = 12u;
-RELIEF_CONSTANT uint kCapLevels = 18u; // 2^-18 of the cap's size: nearer to the vertex the last level goes on
+RELIEF_CONSTANT uint kCapLevels = 24u; // to 2^-24 of the cap's size: nearer to the vertex the last level goes on
 RELIEF_CONSTANT uint kCapPieces = 3u;
 
 // What an edge or corner is besides.

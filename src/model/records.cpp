@@ -92,7 +92,7 @@ public:
         for (const Patch& patch : surface_.patches) {
             if (isExact(patch.type)) appendCap(words, patch.cap);
             appendIndices(words, pointsOf(patch));
-            if (isExact(patch.texType)) appendCap(words, patch.cap);
+            if (isExact(patch.texType)) appendCap(words, surface_.texCaps[&patch - surface_.patches.data()]);
             appendIndices(words, texPointsOf(patch));
         }
     }

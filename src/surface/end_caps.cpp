@@ -30,9 +30,21 @@ struct Sector {
     }
 };
 
+/// OpenSubdiv's own patch builder reads the rules of face-varying values there; Far does not offer them.
+struct RefinerAccess : Far::TopologyRefiner {
+    static const OpenSubdiv::Vtr::internal::FVarLevel& valuesOf(const Far::TopologyRefiner& refiner, int level) {
+        using Levels = const OpenSubdiv::Vtr::internal::Level& (Far::TopologyRefiner::*)(int) const;
+        const Levels levels = &RefinerAccess::getLevel;
+        return (refiner.*levels)(level).getFVarLevel(0);
+    }
+};
+
+/// Walks over the faces of a level: those of the surface, or of the texture coordinates, which end at their seams.
 class LevelWalker {
 public:
-    LevelWalker(const TopologyLevel& level, int sideCount) : level_(level), sideCount_(sideCount) {}
+    LevelWalker(const TopologyLevel& level, int sideCount,
+                const OpenSubdiv::Vtr::internal::FVarLevel* texture = nullptr)
+        : level_(level), texture_(texture), sideCount_(sideCount) {}
 
     [[nodiscard]] int vertexAt(FaceCorner at) const { return level_.GetFaceVertices(at.face)[at.corner]; }
     [[nodiscard]] int texValueAt(FaceCorner at) const { return level_.GetFaceFVarValues(at.face)[at.corner]; }
@@ -52,8 +64,7 @@ public:
         Sector sector;
         CapPattern& pattern = sector.pattern;
         pattern.sideCount = sideCount_;
-        const int vertex = vertexAt(start);
-        if (level_.IsVertexSemiSharp(vertex) || !setRule(pattern, vertex)) return {};
+        if (level_.IsVertexSemiSharp(vertexAt(start)) || !setRule(pattern, start)) return {};
 
         // Clockwise to a sharp edge or back to the start; a closed fan with one sharp edge starts behind that edge.
         FaceCorner first = start;
@@ -99,10 +110,24 @@ private:
     [[nodiscard]] int next(int corner, int step) const { return (corner + step + sideCount_) % sideCount_; }
 
     [[nodiscard]] bool isSharp(int edge) const {
-        return level_.IsEdgeInfSharp(edge) || level_.IsEdgeBoundary(edge) || level_.IsEdgeNonManifold(edge);
+        return level_.IsEdgeInfSharp(edge) || level_.IsEdgeBoundary(edge) || level_.IsEdgeNonManifold(edge) ||
+               isSeam(edge);
+    }
+    [[nodiscard]] bool isSeam(int edge) const { return texture_ && !level_.DoesEdgeFVarTopologyMatch(edge); }
+
+    /// The rule of a texture coordinate, where it is not the vertex's.
+    bool setTextureRule(CapPattern& pattern, FaceCorner at) const {
+        const int vertex = vertexAt(at);
+        const int number = level_.GetVertexFaces(vertex).FindIndex(at.face);
+        const auto tag = texture_->getVertexValueTags(vertex)[texture_->getVertexFaceSiblings(vertex)[number]];
+        if (tag.isSemiSharp()) return false;
+        pattern.rule = tag.isCrease() ? VertexRule::crease : VertexRule::corner;
+        return true;
     }
 
-    [[nodiscard]] bool setRule(CapPattern& pattern, int vertex) const {
+    bool setRule(CapPattern& pattern, FaceCorner at) const {
+        const int vertex = vertexAt(at);
+        if (texture_ && !level_.DoesVertexFVarTopologyMatch(vertex)) return setTextureRule(pattern, at);
         switch (level_.GetVertexRule(vertex)) {
         case Rule::RULE_SMOOTH:
         case Rule::RULE_DART: pattern.rule = VertexRule::smooth; return true;
@@ -129,13 +154,15 @@ private:
         return true;
     }
 
-    /// The sharp edges at both ends of a sector are one: a dart.
+    /// The sharp edges at both ends of a sector are one: a dart. The texture coordinates along a seam are two.
     [[nodiscard]] bool isOneSharpEdge(const Sector& sector) const {
         const FaceCorner first = sector.faces.front(), last = sector.faces.back();
-        return level_.GetFaceEdges(first.face)[first.corner] == level_.GetFaceEdges(last.face)[next(last.corner, -1)];
+        const int edge = level_.GetFaceEdges(first.face)[first.corner];
+        return edge == level_.GetFaceEdges(last.face)[next(last.corner, -1)] && !isSeam(edge);
     }
 
     const TopologyLevel& level_;
+    const OpenSubdiv::Vtr::internal::FVarLevel* texture_;
     int sideCount_;
 };
 
@@ -269,17 +296,23 @@ public:
         EndCaps& caps = tables_.caps;
         caps.surface.resize(std::size_t(table.GetNumPatchesTotal()));
         caps.texture.resize(caps.surface.size());
+        const bool isTextureCap = tables_.hasTexCoords && isCapType(table.GetFVarPatchDescriptorIrregular().GetType());
         std::size_t patch = 0;
         for (int array = 0; array < table.GetNumPatchArrays(); ++array) {
-            const int type = table.GetPatchArrayDescriptor(array).GetType();
-            const bool isCap =
-                type == Far::PatchDescriptor::GREGORY_BASIS || type == Far::PatchDescriptor::GREGORY_TRIANGLE;
-            for (int i = 0; i < table.GetNumPatches(array); ++i, ++patch)
-                if (isCap) add(patch, faceOf(table.GetPatchParam(array, i)));
+            const bool isCap = isCapType(table.GetPatchArrayDescriptor(array).GetType());
+            for (int i = 0; i < table.GetNumPatches(array); ++i, ++patch) {
+                if (isCap) addSurface(patch, faceOf(table.GetPatchParam(array, i)));
+                if (isTextureCap && !table.GetPatchFVarPatchParam(array, i).IsRegular())
+                    addTexture(patch, faceOf(table.GetPatchParam(array, i)));
+            }
         }
     }
 
 private:
+    static bool isCapType(int type) {
+        return type == Far::PatchDescriptor::GREGORY_BASIS || type == Far::PatchDescriptor::GREGORY_TRIANGLE;
+    }
+
     [[nodiscard]] LevelFace faceOf(const Far::PatchParam& param) const {
         const Far::TopologyRefiner& refiner = *tables_.refiner;
         const auto [cageFace, corner] = roots_[std::size_t(param.GetFaceId())];
@@ -296,25 +329,29 @@ private:
         return at;
     }
 
-    void add(std::size_t patch, const LevelFace& at) {
-        const TopologyLevel& level = tables_.refiner->GetLevel(at.level);
-        const LevelWalker walker(level, sideCount_);
-        CapWalker cap(walker);
-        if (!cap.find(at.face, sideCount_)) return;
-        EndCap surface;
-        surface.pattern = patternIndex(cap.pattern()), surface.corner = std::uint32_t(cap.corner());
-        for (const FaceCorner& point : cap.points())
-            surface.points.push_back(firstPoints_[at.level] + walker.vertexAt(point));
-        EndCaps& caps = tables_.caps;
-        surface.limit = limitIndex(limits_, caps.limits, surface);
-        caps.surface[patch] = surface;
-        if (!tables_.hasTexCoords || !level.DoesFaceFVarTopologyMatch(at.face)) return;
-        EndCap texture;
-        texture.pattern = surface.pattern, texture.corner = surface.corner;
-        for (const FaceCorner& point : cap.points())
-            texture.points.push_back(firstTexPoints_[at.level] + walker.texValueAt(point));
-        texture.limit = limitIndex(texLimits_, caps.texLimits, texture);
-        caps.texture[patch] = texture;
+    void addSurface(std::size_t patch, const LevelFace& at) {
+        const LevelWalker walker(tables_.refiner->GetLevel(at.level), sideCount_);
+        const auto pointAt = [&](FaceCorner corner) { return firstPoints_[at.level] + walker.vertexAt(corner); };
+        tables_.caps.surface[patch] = capAt(walker, at.face, pointAt, limits_, tables_.caps.limits);
+    }
+
+    void addTexture(std::size_t patch, const LevelFace& at) {
+        const LevelWalker walker(tables_.refiner->GetLevel(at.level), sideCount_,
+                                 &RefinerAccess::valuesOf(*tables_.refiner, at.level));
+        const auto pointAt = [&](FaceCorner corner) { return firstTexPoints_[at.level] + walker.texValueAt(corner); };
+        tables_.caps.texture[patch] = capAt(walker, at.face, pointAt, texLimits_, tables_.caps.texLimits);
+    }
+
+    template <typename PointAt>
+    std::optional<EndCap> capAt(const LevelWalker& walker, int face, const PointAt& pointAt,
+                                std::map<int, std::uint32_t>& knownLimits, std::vector<EndCaps::Limit>& limits) {
+        CapWalker found(walker);
+        if (!found.find(face, sideCount_)) return {};
+        EndCap cap;
+        cap.pattern = patternIndex(found.pattern()), cap.corner = std::uint32_t(found.corner());
+        for (const FaceCorner& point : found.points()) cap.points.push_back(pointAt(point));
+        cap.limit = limitIndex(knownLimits, limits, cap);
+        return cap;
     }
 
     std::uint32_t patternIndex(const CapPattern& pattern) {

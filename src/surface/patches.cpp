@@ -55,12 +55,19 @@ void addCapTable(Surface& surface, const CapMatrices& matrices) {
     // The limit point is what the others are counted from: it has no weight, where it stands first and where it fills
     // up.
     const auto isOnRing = [&](Eigen::Index point) { return point >= 1 && point <= ringCount; };
+    const auto add = [&](int level, int piece, Eigen::Index row, Eigen::Index point) {
+        weights.push_back(isOnRing(point) ? float(matrices.pieceWeights(level, piece)(row, point - 1)) : 0);
+    };
     for (int level = 1; level <= int(kCapLevels); ++level)
-        for (int piece = 0; piece < int(kCapPieces); ++piece) {
-            const Eigen::MatrixXd& m = matrices.pieceWeights(level, piece);
-            for (Eigen::Index point = 0; point < pointCount; ++point)
-                for (Eigen::Index j = 0; j < m.rows(); ++j)
-                    weights.push_back(isOnRing(point) ? float(m(j, point - 1)) : 0);
+        for (Eigen::Index point = 0; point < pointCount; ++point) {
+            if (surface.sideCount == 3) {
+                for (int piece = 0; piece < int(kCapPieces); ++piece)
+                    for (int row = 0; row < 12; ++row) add(level, piece, row, point);
+                continue;
+            }
+            for (int x = 0; x < 4; ++x) add(level, 0, x, point);
+            for (int i = 0; i < 16; ++i) add(level, 1, i, point);
+            for (int y = 0; y < 4; ++y) add(level, 2, 4 * y, point);
         }
     const Eigen::MatrixXd& tangents = matrices.tangentWeights();
     for (Eigen::Index point = 0; point < pointCount; ++point)
@@ -111,6 +118,7 @@ void fillPatches(Surface& surface, const FarTables& tables) {
     fillCapTables(surface, tables.caps);
     const auto firstLimit = std::uint32_t(pointCount(tables)), firstTexLimit = texPointCount(tables);
     const Far::PatchTable& table = *tables.patches;
+    if (tables.hasTexCoords) surface.texCaps.resize(std::size_t(table.GetNumPatchesTotal()));
     surface.patches.reserve(table.GetNumPatchesTotal());
     surface.patchPoints.reserve(table.GetNumControlVerticesTotal());
     for (int array = 0; array < table.GetNumPatchArrays(); ++array) {
@@ -139,7 +147,8 @@ void fillPatches(Surface& surface, const FarTables& tables) {
                                                       : table.GetFVarPatchDescriptorIrregular())
                                     .GetType();
                 if (const EndCap* texCap = capOf(tables.caps.texture, number)) {
-                    patch.texType = patch.type;
+                    patch.texType = surface.sideCount == 4 ? kPatchExactQuad : kPatchExactTriangle;
+                    surface.texCaps[number] = 4 * texCap->pattern + texCap->corner;
                     addPoints(*texCap, firstTexLimit, surface.texPatchPoints);
                 } else {
                     for (const int point : table.GetPatchFVarValues(array, i)) surface.texPatchPoints.push_back(point);

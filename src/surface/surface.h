@@ -63,6 +63,7 @@ struct Surface {
 
     std::vector<vec2> texPoints; ///< face-varying points, refined and local; empty without texture coordinates
     std::vector<std::uint32_t> texPatchPoints;
+    std::vector<std::uint32_t> texCaps; ///< per patch: Patch::cap of its texture coordinates; empty without these
 
     std::vector<Edge> edges;
     std::vector<Corner> corners;

@@ -27,11 +27,11 @@ TEST(Help, listsVerbsAndExitCodes) {
 TEST(Help, namesEveryOption) {
     const std::string render = relief({"render", "--help"}).out;
     for (const char* option :
-         {"--scheme",    "--isolation", "--height",      "--scale",      "--mid",         "--channel",   "--path",
-          "--rate",      "--normal",    "--edge-pixels", "--size",       "--azimuth",     "--elevation", "--distance",
-          "--look-at",   "--fov",       "--albedo",      "--light",      "--environment", "--show",      "--json",
-          "--quiet",     "--verbose",   "--progress",    "--no-shadows", "--background",  "--device",    "--wrap",
-          "--roughness", "--color",     "--transparent", "--spacing",    "--memory"})
+         {"--scheme",   "--isolation", "--end-caps", "--height",      "--scale",      "--mid",         "--channel",
+          "--path",     "--rate",      "--normal",   "--edge-pixels", "--size",       "--azimuth",     "--elevation",
+          "--distance", "--look-at",   "--fov",      "--albedo",      "--light",      "--environment", "--show",
+          "--json",     "--quiet",     "--verbose",  "--progress",    "--no-shadows", "--background",  "--device",
+          "--wrap",     "--roughness", "--color",    "--transparent", "--spacing",    "--memory"})
         EXPECT_TRUE(contains(render, option)) << option;
     const std::string mesh = relief({"export", "--help"}).out;
     for (const char* option : {"--scheme", "--height", "--rate", "--edge-pixels", "--spacing", "--memory", "--normal",

@@ -10,7 +10,7 @@ namespace {
 /// Points at 2^-2 to 2^-20 of a face from its corners.
 std::vector<SampleQuery> queriesAtCorners(const Surface& surface, std::uint32_t mostFaces) {
     std::mt19937 random(3);
-    std::uniform_real_distribution<float> unit(0, 1);
+    std::uniform_real_distribution<float> unit(0.5, 1);
     std::vector<SampleQuery> queries;
     const auto stride = std::max<std::uint32_t>(std::uint32_t(surface.faces.size()) / mostFaces, 1);
     for (std::uint32_t face = 0; face < surface.faces.size(); face += stride) {

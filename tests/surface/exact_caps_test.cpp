@@ -67,7 +67,8 @@ TEST(ExactCaps, AreTheLimitSurfaceAsNearToTheVertexAsPointsGo) {
         SCOPED_TRACE(family.name);
         for (const std::uint32_t vertex : verticesOf(family.cage)) {
             const Errors errors = errorsAround(family, vertex, 20);
-            EXPECT_GT(errors.count, 0);
+            const bool isDrawn = family.cage.boundaryRule != BoundaryRule::none; // the vertices are at the boundary
+            EXPECT_EQ(errors.count > 0, isDrawn);
             if (errors.approximate > 0) continue;
             EXPECT_LE(errors.point, 1e-14);
             EXPECT_LE(errors.tangent, 1e-4);

@@ -33,9 +33,9 @@ std::vector<double> bilinearWeights(const dvec2& uv) {
 
 /// The value of an exact cap; `point(i)` is its i-th control point.
 template <typename V, typename PointAt>
-V capValue(const Surface& surface, const Patch& patch, const dvec2& uv, const PointAt& point) {
-    const CapTable& table = surface.capTables.at(patch.cap / 4);
-    const std::uint32_t corner = patch.cap % 4;
+V capValue(const Surface& surface, std::uint32_t cap, const dvec2& uv, const PointAt& point) {
+    const CapTable& table = surface.capTables.at(cap / 4);
+    const std::uint32_t corner = cap % 4;
     const double w = 1 - uv.x - uv.y;
     const dvec2 quads[] = {uv, {uv.y, 1 - uv.x}, dvec2(1) - uv, {1 - uv.y, uv.x}},
                 triangles[] = {uv, {uv.y, w}, {w, uv.x}};
@@ -44,14 +44,20 @@ V capValue(const Surface& surface, const Patch& patch, const dvec2& uv, const Po
     const V limit = point(0);
     if (place.level == 0) return limit;
     const std::vector<Jet> basis = pieceBasis(surface.sideCount, place.u, place.v);
-    const std::size_t piece = std::size_t(place.level - 1) * kCapPieces + std::size_t(place.piece);
+    // Where the weight of a control point stands among those of a point on a level.
+    const auto slot = [&](int j) {
+        if (surface.sideCount == 3) return 12 * place.piece + j;
+        const int x = j % 4 - (place.piece == 2 ? 1 : 0), y = j / 4 - (place.piece == 0 ? 1 : 0);
+        return y < 0 ? x : x < 0 ? 20 + y : 4 + 4 * y + x;
+    };
+    const std::size_t slots = surface.sideCount == 3 ? 36 : 24;
     V sum(0);
     for (std::uint32_t i = 0; i < table.pointCount; ++i)
-        for (std::size_t j = 0; j < basis.size(); ++j)
-            sum +=
-                place.size * basis[j].f *
-                double(surface.capWeights.at(table.firstWeight + (piece * table.pointCount + i) * basis.size() + j)) *
-                (point(i) - limit);
+        for (std::size_t j = 0; j < basis.size(); ++j) {
+            const std::size_t row = std::size_t(place.level - 1) * table.pointCount + i;
+            const float weight = surface.capWeights.at(table.firstWeight + row * slots + std::size_t(slot(int(j))));
+            sum += place.size * basis[j].f * double(weight) * (point(i) - limit);
+        }
     return limit + sum;
 }
 
@@ -96,7 +102,7 @@ dvec3 FlatSurface::position(std::uint32_t face, const dvec2& uv) const {
     const Leaf leaf = findLeaf(surface_, face, uv);
     const Patch& patch = surface_.patches.at(leaf.patch);
     if (isExactCap(patch.type))
-        return capValue<dvec3>(surface_, patch, leaf.uv, [&](std::uint32_t i) {
+        return capValue<dvec3>(surface_, patch.cap, leaf.uv, [&](std::uint32_t i) {
             return dvec3(points_.at(surface_.patchPoints.at(patch.firstPoint + i)));
         });
     const auto w = weights(leaf.patch, leaf, uv);
@@ -110,7 +116,7 @@ dvec2 FlatSurface::texCoord(std::uint32_t face, const dvec2& uv) const {
     const Leaf leaf = findLeaf(surface_, face, uv);
     const Patch& patch = surface_.patches.at(leaf.patch);
     if (isExactCap(patch.texType))
-        return capValue<dvec2>(surface_, patch, leaf.uv, [&](std::uint32_t i) {
+        return capValue<dvec2>(surface_, surface_.texCaps.at(leaf.patch), leaf.uv, [&](std::uint32_t i) {
             return dvec2(surface_.texPoints.at(surface_.texPatchPoints.at(patch.texFirstPoint + i)));
         });
     const auto w = texWeights(leaf.patch, leaf, uv);
