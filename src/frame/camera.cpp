@@ -19,7 +19,8 @@ dvec3 directionAt(double azimuth, double elevation) {
 }
 
 ReferenceSurface makeCoarseSurface(const Cage& cage, Scheme scheme) {
-    return {cage, {.scheme = scheme, .isolation = 2}};
+    // Patches that only approximate the surface are near enough, and cost less to evaluate.
+    return {cage, {.scheme = scheme, .isolation = 2, .endCaps = EndCapKind::gregory}};
 }
 
 std::vector<dvec3> outline(const ReferenceSurface& surface, const HeightMap* map, double bound) {
