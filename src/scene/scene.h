@@ -23,8 +23,7 @@ struct Distance {
     [[nodiscard]] double cageUnits(double diagonal) const { return isShare ? value * diagonal : value; }
 };
 
-/// A height map as HeightOptions describes it, or a height function. Both are empty where nothing displaces the
-/// surface.
+/// A height map as HeightOptions describes it, or a height function; both empty where nothing displaces the surface.
 struct HeightDesc {
     std::string path;
     std::string function;                ///< readHeightFunction
@@ -67,7 +66,7 @@ struct ObjectDesc {
     std::string cage;                       ///< path
     std::optional<Subdivision> subdivision; ///< default: none for a mesh of triangles, else catmark
     std::optional<int> isolation;           ///< default: neededIsolation()
-    EndCapKind endCaps = SurfaceOptions().endCaps;
+    EndCapKind endCaps = EndCapKind::exact;
     std::optional<Distance> weld; ///< joins boundary vertices at most so far apart; default: vertices stay as they are
     HeightDesc height;
     MaterialDesc material;

@@ -22,7 +22,7 @@ TEST(Corners, ofExactNormalsTurnLittle) {
         const std::vector<SampleQuery> corners = cornersOf(buildSurface(named.cage, {}));
         const CornerReport report = reportCorners(reference, corners, exactNormals(reference, corners));
         EXPECT_EQ(report.count, corners.size());
-        EXPECT_LT(report.max, 10) << named.name << " face " << report.worst.face;
+        EXPECT_LT(report.max, 12) << named.name << " face " << report.worst.face;
     }
 }
 
