@@ -89,6 +89,14 @@ private:
                 displaceVertex(faces_[number], dvec2(i, j) / double(n), number * perFace_ + indexOf(i, j));
     }
 
+    /// Slightly inside of the face, because a sculpt may end where the surface does.
+    [[nodiscard]] std::optional<LineHit> look(int face, const dvec2& uv) const {
+        constexpr double kInwards = 1e-3;
+        const dvec2 inside = glm::mix(uv, dvec2(sideCount_ == 4 ? 1.0 / 2 : 1.0 / 3), kInwards);
+        return sculpt_.nearestOnLine(surface_.limit(face, inside).p, surface_.normal(face, inside), options_.reach,
+                                     options_.facing);
+    }
+
     void displaceVertex(int face, const dvec2& uv, std::size_t vertex) {
         const LimitFrame frame = surface_.limit(face, uv);
         const double h = sampleHeight(map_, surface_.texture(face, uv).st).h;
@@ -97,8 +105,7 @@ private:
         facts.normal = hasPlane ? glm::normalize(glm::cross(frame.pu, frame.pv)) : surface_.normal(face, uv);
         facts.area = glm::length(glm::cross(frame.pu, frame.pv));
         facts.isFolded = hasPlane && computeFoldFactor(frame, h) <= 0;
-        const std::optional<LineHit> hit =
-            sculpt_.nearestOnLine(frame.p, facts.normal, options_.reach, options_.facing);
+        const std::optional<LineHit> hit = look(face, uv);
         facts.isMissed = !hit;
         facts.isBehind = hit && hit->isBehindBack;
         const dvec3 q = frame.p + h * facts.normal;

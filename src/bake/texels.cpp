@@ -18,10 +18,10 @@ double beyondSide(int sideCount, int side, const dvec2& uv) {
     return side == 0 ? -uv.y : side == 1 ? uv.x - 1 : side == 2 ? uv.y - 1 : -uv.x;
 }
 
-/// Where along a side a point beside it is, 0..1.
+/// Where along a side a point beside it is: 0..1, or beyond the ends.
 double alongSide(int sideCount, int side, const dvec2& uv) {
     const dvec2 first = sidePoint(sideCount, side, 0), way = sidePoint(sideCount, side, 1) - first;
-    return std::clamp(glm::dot(uv - first, way) / glm::dot(way, way), 0.0, 1.0);
+    return glm::dot(uv - first, way) / glm::dot(way, way);
 }
 
 /// The direction into a face, across a side, by face coordinates.
@@ -211,7 +211,7 @@ void UvTexels::claimTriangle(const Node (&corners)[3], int face, int side, Claim
                 const dvec2 uv = (1 - v - w) * corners[0].uv + v * corners[1].uv + w * corners[2].uv;
                 const int sideCount = surface_.sideCount;
                 if (side == kInside) {
-                    constexpr double kSlack = 1e-3; // neighbours touch
+                    constexpr double kSlack = 0.02; // neighbours touch, and cells are straight where borders bend
                     if (claim.face < 0)
                         claim = {face, kInside, uv, at};
                     else if (claim.face != face && isInFace(sideCount, uv, kSlack) &&
@@ -301,42 +301,62 @@ void UvTexels::addSample(const Claims& claims, std::size_t index, int firstTexel
     samples.push_back(sample);
 }
 
-/// Across the edge lies the same surface, as far from the edge in its own units. Without a face there the heights go on
-/// linearly: h(e) = 2 h(0) - h(-e).
-void UvTexels::addBeyond(int face, int side, dvec2 uv, const TexelSample& base,
-                         std::vector<TexelSample>& samples) const {
+/// The point of the neighbour that lies as far beyond a side as (u,v) does, in the units of the surface. It is outside
+/// of the neighbour where (u,v) is beyond an end of the side.
+std::optional<UvTexels::FacePoint> UvTexels::crossSide(int face, int side, const dvec2& uv) const {
     const int sideCount = surface_.sideCount;
-    const double along = alongSide(sideCount, side, uv), beyond = std::max(0.0, beyondSide(sideCount, side, uv));
+    const double raw = alongSide(sideCount, side, uv), along = std::clamp(raw, 0.0, 1.0);
+    const double beyond = std::max(0.0, beyondSide(sideCount, side, uv));
     const std::uint32_t entry = surface_.faces[std::size_t(face)].sides[side];
-    const auto addAt = [&](int other, const dvec2& at, float weight) {
-        TexelSample sample = base;
-        sample.face = other, sample.uv = vec2(clampToFace(sideCount, at)), sample.weight = weight;
-        samples.push_back(sample);
-    };
-
-    // The edge that runs past that point of the side, and the face on its other side.
-    const std::uint32_t pieces = (entry & kSideSplit) != 0 ? 2 : 1;
-    for (std::uint32_t piece = 0; piece < pieces; ++piece) {
+    for (std::uint32_t piece = 0; piece < ((entry & kSideSplit) != 0 ? 2u : 1u); ++piece) {
         const std::span<const Incidence> around = incidences_.of((entry & kSideEdgeMask) + piece);
         if (around.size() != 2) continue;
-        const Incidence& own = around[around[0].face == std::uint32_t(face) && int(around[0].side) == side ? 0 : 1];
-        const Incidence& other = around[&own == around.data() ? 1 : 0];
-        const double t = (along - double(own.start)) / (double(own.end) - double(own.start));
-        if (t < -1e-6 || t > 1 + 1e-6) continue;
-        const dvec2 border =
-            sidePoint(sideCount, int(other.side), std::lerp(double(other.start), double(other.end), t));
+        const bool isFirst = around[0].face == std::uint32_t(face) && int(around[0].side) == side;
+        const Incidence &own = around[isFirst ? 0 : 1], &other = around[isFirst ? 1 : 0];
+        const double start = own.start, length = double(own.end) - start, t = (along - start) / length;
+        constexpr double kSlack = 1e-6;
+        if (t < -kSlack || t > 1 + kSlack) continue;
+        const auto onOther = [&](double at) {
+            const double x = std::lerp(double(other.start), double(other.end), (at - start) / length);
+            return sidePoint(sideCount, int(other.side), x);
+        };
+        // How fast both faces run away from the edge.
         const dvec2 in = inward(sideCount, int(other.side)), out = -inward(sideCount, side);
         const LimitFrame here = reference_.limit(face, sidePoint(sideCount, side, along)),
-                         there = reference_.limit(int(other.face), border);
+                         there = reference_.limit(int(other.face), clampToFace(sideCount, onOther(along)));
         const double speed = glm::length(out.x * here.pu + out.y * here.pv),
                      speedThere = glm::length(in.x * there.pu + in.y * there.pv);
-        const double scale = speedThere > 1e-12 * speed ? std::min(speed / speedThere, 4.0) : 1;
-        return addAt(int(other.face), border + std::min(beyond * scale, 0.5) * in, 1);
+        constexpr double kMostScale = 4, kFarthest = 0.5; // of a face: what is farther away is elsewhere
+        const double scale = speedThere > 1e-12 * speed ? std::min(speed / speedThere, kMostScale) : 1;
+        return FacePoint{int(other.face), onOther(raw) + std::min(beyond * scale, kFarthest) * in};
     }
-    const dvec2 border = sidePoint(sideCount, side, along), in = inward(sideCount, side);
-    constexpr double kBesideBorder = 1e-4; // where a sculpt may end as well
-    addAt(face, border + kBesideBorder * in, 2);
-    addAt(face, border + std::min(kBesideBorder + beyond, 0.5) * in, -1);
+    return {};
+}
+
+/// Across the edge lies the same surface. Without a face there the heights go on linearly: h(e) = 2 h(0) - h(-e).
+void UvTexels::addBeyond(int face, int side, const dvec2& uv, const TexelSample& base,
+                         std::vector<TexelSample>& samples) const {
+    const int sideCount = surface_.sideCount;
+    const auto addAt = [&](const FacePoint& point, float weight) {
+        TexelSample sample = base;
+        sample.face = point.face, sample.uv = vec2(clampToFace(sideCount, point.uv)), sample.weight = weight;
+        samples.push_back(sample);
+    };
+    if (std::optional<FacePoint> point = crossSide(face, side, uv)) {
+        // Beyond an end of the side a second one is crossed, if there is a face.
+        int farthest = 0;
+        for (int other = 1; other < sideCount; ++other)
+            if (beyondSide(sideCount, other, point->uv) > beyondSide(sideCount, farthest, point->uv)) farthest = other;
+        if (beyondSide(sideCount, farthest, point->uv) > 0)
+            point = crossSide(point->face, farthest, point->uv).value_or(*point);
+        return addAt(*point, 1);
+    }
+    const dvec2 border = sidePoint(sideCount, side, std::clamp(alongSide(sideCount, side, uv), 0.0, 1.0));
+    const dvec2 in = inward(sideCount, side);
+    constexpr double kBesideBorder = 1e-4, kFarthest = 0.5; // where a sculpt may end as well
+    const double beyond = std::max(0.0, beyondSide(sideCount, side, uv));
+    addAt({face, border + kBesideBorder * in}, 2);
+    addAt({face, border + std::min(kBesideBorder + beyond, kFarthest) * in}, -1);
 }
 
 } // namespace relief

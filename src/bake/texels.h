@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 
 #include "displacement/displacement.h"
 
@@ -74,7 +75,13 @@ private:
     void claimMargin(int face, Claims& claims) const;
     void claimTriangle(const Node (&corners)[3], int face, int side, Claims& claims) const;
     void addSample(const Claims& claims, std::size_t index, int row, std::vector<TexelSample>& samples) const;
-    void addBeyond(int face, int side, dvec2 uv, const TexelSample& base, std::vector<TexelSample>& samples) const;
+    struct FacePoint {
+        int face;
+        dvec2 uv;
+    };
+    [[nodiscard]] std::optional<FacePoint> crossSide(int face, int side, const dvec2& uv) const;
+    void addBeyond(int face, int side, const dvec2& uv, const TexelSample& base,
+                   std::vector<TexelSample>& samples) const;
     [[nodiscard]] dvec2 refine(int face, dvec2 uv, const dvec2& st) const;
 
     const Surface& surface_;

@@ -57,14 +57,15 @@ ReadTriangles readText(MeshSource& source) {
 } // namespace
 
 ReadTriangles readStl(const std::string& path) {
-    // Some binary files begin with "solid" as well: the length decides.
+    // Some binary files begin with "solid" as well: the length decides, and a byte that no text has.
     const InputFile file(path);
     char head[kHeaderBytes] = {};
     const std::size_t length = file.read(0, head, kHeaderBytes);
     std::uint32_t count = 0;
     std::memcpy(&count, head + 80, sizeof count);
     const bool fits = length == kHeaderBytes && file.size() == kHeaderBytes + kTriangleBytes * std::uint64_t(count);
-    const bool isText = !fits && std::string_view(head, 5) == "solid";
+    const std::string_view start(head, length);
+    const bool isText = !fits && start.starts_with("solid") && start.find('\0') == std::string_view::npos;
     if (!isText && length < kHeaderBytes) fail(Failure::input, "{}: {} bytes are no STL file", path, length);
     MeshSource source(path);
     ReadTriangles triangles = isText ? readText(source) : readBinary(source);
