@@ -305,6 +305,7 @@ int bake(const BakeArgs& args) {
                                      {.reach = reach,
                                       .facing = facing,
                                       .triangleCount = std::clamp(2 * pair.triangleCount, kFewest, kMost),
+                                      .wantsDistances = !args.heatmap.empty(),
                                       .progress = args.output.progress});
     report.seams = reportSeams(pair.object.surface, pair.reference, map);
     report.certifySeconds = secondsNow() - certifyStart;

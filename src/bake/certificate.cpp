@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <future>
+#include <limits>
 #include <thread>
 
 namespace relief {
@@ -48,7 +49,7 @@ public:
         DenseMesh& mesh = certificate_.displaced;
         mesh.positions.resize(faces_.size() * perFace_);
         mesh.normals.resize(mesh.positions.size());
-        mesh.heights.resize(mesh.positions.size());
+        if (options_.wantsDistances) mesh.heights.resize(mesh.positions.size());
         facts_.resize(mesh.positions.size());
         onEachFace([this](std::size_t i) { displaceFace(i); });
         makeTriangles();
@@ -111,7 +112,12 @@ private:
         const dvec3 q = frame.p + h * facts.normal;
         certificate_.displaced.positions[vertex] = vec3(q);
         certificate_.displaced.normals[vertex] = vec3(facts.normal);
-        const double distance = sculpt_.distance(q);
+        if (!options_.wantsDistances) return;
+        // The hit is a point of the sculpt, and near: beyond it there is nothing to look for.
+        const double limit = hit ? 2 * std::abs(h - hit->height) + 0.01 * (options_.reach.front + options_.reach.back)
+                                 : std::numeric_limits<double>::infinity();
+        double distance = sculpt_.distance(q, limit);
+        if (!std::isfinite(distance)) distance = sculpt_.distance(q);
         certificate_.displaced.heights[vertex] = float(hit ? distance : -distance);
     }
 

@@ -182,9 +182,7 @@ MeasuredSurface::~MeasuredSurface() = default;
 MeasuredSurface::MeasuredSurface(MeasuredSurface&&) noexcept = default;
 MeasuredSurface& MeasuredSurface::operator=(MeasuredSurface&&) noexcept = default;
 
-double MeasuredSurface::distance(const dvec3& p) const {
-    return parts_->points.distance(p, std::numeric_limits<double>::infinity());
-}
+double MeasuredSurface::distance(const dvec3& p, double limit) const { return parts_->points.distance(p, limit); }
 std::optional<LineHit> MeasuredSurface::nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
                                                       Facing facing) const {
     return parts_->points.nearestOnLine(p, direction, reach, facing);
