@@ -26,10 +26,20 @@ constexpr Word<SampleType> kHeightFormats[] = {
      "16-bit integers over the range of the heights, or by --mid and --scale: .png .tif"},
 };
 
+/// A picture to write besides the heights.
+struct LayerFile {
+    std::string path;
+    Layer layer;
+};
+
 struct BakeArgs {
     ObjectDesc
         object; ///< its height is read with --check; else its mid and scale are those of the file that is written
     std::string sculpt, target, voids, heatmap, device;
+    std::string normals, position, vector, occlusion, curvature;
+    NormalSpace normalSpace = NormalSpace::tangent;
+    NormalY normalY = NormalY::up;
+    int occlusionLines = 64;
     std::optional<SampleType> sample;
     ivec2 size{1024};
     int sampleCount = 4;
@@ -66,13 +76,36 @@ SampleType chooseSample(const BakeArgs& args) {
     return sample;
 }
 
+std::vector<LayerFile> listLayers(const BakeArgs& args) {
+    const Layer normal = args.normalSpace == NormalSpace::tangent ? Layer::tangentNormal : Layer::objectNormal;
+    std::vector<LayerFile> files;
+    for (const LayerFile& file : {LayerFile{args.normals, normal}, LayerFile{args.position, Layer::position},
+                                  LayerFile{args.vector, Layer::vector}, LayerFile{args.occlusion, Layer::occlusion},
+                                  LayerFile{args.curvature, Layer::curvature}})
+        if (!file.path.empty()) files.push_back(file);
+    return files;
+}
+
+/// Numbers with a unit are written as floats.
+bool hasUnit(Layer layer) { return layer == Layer::position || layer == Layer::vector || layer == Layer::curvature; }
+
+void checkLayer(const LayerFile& file, const std::vector<std::string>& inputs) {
+    const std::string extension = lowerExtension(file.path);
+    const bool isFloat = extension == ".exr" || extension == ".tif" || extension == ".tiff";
+    if (!isFloat && (extension != ".png" || hasUnit(file.layer)))
+        fail(Failure::usage, "{}: {}", file.path,
+             hasUnit(file.layer) ? "positions, vectors and curvatures are written as .exr or .tif"
+                                 : "normals and occlusion are written as .png, .tif or .exr");
+    checkOutput(file.path, inputs);
+}
+
 /// What makes no sense, and outputs that cannot be written, before anything is read.
 void checkArgs(const BakeArgs& args) {
     const std::vector<std::string> inputs{args.object.cage, args.sculpt, args.object.height.path};
     if (args.checksOnly) {
         if (args.object.height.path.empty()) fail(Failure::usage, "--check needs the map: name it with --height");
-        if (!args.target.empty() || !args.voids.empty())
-            fail(Failure::usage, "--check writes no map; -o and --voids are for baking one");
+        if (!args.target.empty() || !args.voids.empty() || !listLayers(args).empty())
+            fail(Failure::usage, "--check writes no map; -o, --voids and other maps are for baking");
     } else {
         if (args.target.empty())
             fail(Failure::usage, "name the map to write with -o, or the map to check with --check --height");
@@ -82,6 +115,7 @@ void checkArgs(const BakeArgs& args) {
         checkOutput(args.target, inputs);
     }
     if (!args.voids.empty()) checkOutput(args.voids, inputs);
+    for (const LayerFile& file : listLayers(args)) checkLayer(file, inputs);
     if (!args.heatmap.empty()) {
         checkHeatmapPath(args.heatmap);
         checkOutput(args.heatmap, inputs);
@@ -180,6 +214,29 @@ void writeVoids(const BakeArgs& args, const BakedHeights& baked) {
     writeImage(args.voids, mask, lowerExtension(args.voids) == ".exr" ? SampleType::half : SampleType::uint8);
 }
 
+/// Directions are written as codes (n + 1) / 2; lengths in cage units, positions in the world.
+void writeLayers(const BakeArgs& args, BakedHeights& baked, const Coordinates& coordinates) {
+    const std::vector<LayerFile> files = listLayers(args);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto& [path, layer] = files[i];
+        Image& image = baked.layers[i];
+        const auto mapEach = [&](const auto& change) {
+            for (std::size_t k = 0; k < image.texels.size(); ++k)
+                image.texels[k] = float(change(double(image.texels[k]), int(k) % image.channels));
+        };
+        const double up = layer == Layer::tangentNormal && args.normalY == NormalY::down ? -1 : 1;
+        if (layer == Layer::tangentNormal || layer == Layer::objectNormal)
+            mapEach([&](double n, int k) { return 0.5 * (k == 1 ? up : 1.0) * n + 0.5; });
+        if (layer == Layer::position)
+            mapEach([&](double x, int k) { return coordinates.origin[k] + coordinates.unit * x; });
+        if (layer == Layer::vector) mapEach([&](double x, int) { return coordinates.unit * x; });
+        if (layer == Layer::curvature) mapEach([&](double x, int) { return x / coordinates.unit; });
+        const bool isExr = lowerExtension(path) == ".exr";
+        writeImage(path, image, isExr || hasUnit(layer) ? SampleType::real : SampleType::uint16);
+        image = {};
+    }
+}
+
 /// What the map cannot show, however it is baked.
 void warnOfIslands(const BakeArgs& args, const UvTexels& texels, const Warn& warn) {
     const IslandOverlap overlap = texels.overlap();
@@ -220,8 +277,16 @@ Pair loadPair(const BakeArgs& args, const Warn& warn) {
 }
 
 /// Bakes the map and writes it, whatever is measured of it afterwards.
-HeightMap bakeMap(const BakeArgs& args, const Pair& pair, const BakeOptions& options, BakeReport& report) {
+HeightMap bakeMap(const BakeArgs& args, const Pair& pair, BakeOptions options, BakeReport& report) {
     const Warn warn = makeWarn(args.output.isQuiet);
+    SculptDetail detail;
+    for (const LayerFile& file : listLayers(args)) options.layers.layers.push_back(file.layer);
+    if (!options.layers.layers.empty()) {
+        detail = computeSculptDetail(pair.sculpt.triangles(), options.facing);
+        options.layers.detail = &detail;
+        options.layers.occlusionLines = std::max(1, args.occlusionLines / args.sampleCount);
+        options.layers.occlusionReach = pair.sculptBox.diagonal();
+    }
     const UvTexels texels(pair.object.surface, pair.reference,
                           {.width = args.size.x,
                            .height = args.size.y,
@@ -236,6 +301,7 @@ HeightMap bakeMap(const BakeArgs& args, const Pair& pair, const BakeOptions& opt
     HeightMap map = toStored(baked, args, pair.object.cage.coordinates.unit, warn);
     writeHeights(args, map);
     writeVoids(args, baked);
+    writeLayers(args, baked, pair.object.cage.coordinates);
     if (baked.voidCount > 0)
         warn(fmt::format("{}: {} of {} texels are voids: their lines miss {}; they are filled from around", args.target,
                          baked.voidCount, baked.texelCount, args.sculpt));
@@ -356,6 +422,27 @@ Run addBake(CLI::App& app) {
                    "how heights are written (default: float, unorm16 in .png)"));
     listIn(group, "PICTURE",
            app.add_option("--voids", args->voids, "picture to write of the texels whose lines miss: .png .tif .exr"));
+
+    // Other maps of the same lines.
+    const char* others = "other maps";
+    listIn(others, "PICTURE", app.add_option("--normal", args->normals, "normals of the sculpt: .png .tif .exr"));
+    listIn(others, "SPACE",
+           addEnum(app, "--normal-space", args->normalSpace, kNormalSpaces, "what normals are components along"));
+    listIn(others, "Y",
+           addEnum(app, "--normal-y", args->normalY, kNormalYs, "which way the second channel of --normal points"));
+    listIn(others, "PICTURE",
+           app.add_option("--occlusion", args->occlusion,
+                          "share of the sky that the sculpt sees, white where it is open: .png .tif .exr"));
+    listIn(others, "N",
+           app.add_option("--occlusion-lines", args->occlusionLines, "lines per texel for --occlusion (default: 64)")
+               ->check(CLI::Range(1, 65536)));
+    listIn(others, "PICTURE",
+           app.add_option("--curvature", args->curvature,
+                          "mean curvature of the sculpt, 1 / cage unit, above 0 on ridges: .exr .tif"));
+    listIn(others, "PICTURE", app.add_option("--position", args->position, "points of the sculpt: .exr .tif"));
+    listIn(others, "PICTURE",
+           app.add_option("--vector", args->vector,
+                          "displacement along x, y and z, from the limit surface to the sculpt: .exr .tif"));
 
     // The certificate.
     app.add_flag("--check", args->checksOnly, "certify the map of --height instead of baking one")

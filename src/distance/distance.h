@@ -61,6 +61,10 @@ public:
     /// The triangle is found with floats, its height is computed in double precision. Several threads may ask.
     [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
                                                        Facing facing = Facing::front) const;
+    /// True where a line from a point of the surface, or near it, meets a triangle within `reach`.
+    [[nodiscard]] bool isBlocked(const dvec3& p, const dvec3& direction, double reach) const;
+    /// The surface's own copy of its triangles.
+    [[nodiscard]] TriangleView triangles() const;
     [[nodiscard]] std::size_t sampleCount() const;
     /// Largest distance from a point of the surface to the sample that represents it.
     [[nodiscard]] double coverage() const;
