@@ -29,7 +29,7 @@ constexpr Word<SampleType> kHeightFormats[] = {
 /// A picture to write besides the heights.
 struct LayerFile {
     std::string path;
-    Layer layer;
+    SculptLayer layer;
 };
 
 struct BakeArgs {
@@ -77,17 +77,21 @@ SampleType chooseSample(const BakeArgs& args) {
 }
 
 std::vector<LayerFile> listLayers(const BakeArgs& args) {
-    const Layer normal = args.normalSpace == NormalSpace::tangent ? Layer::tangentNormal : Layer::objectNormal;
+    const SculptLayer normal =
+        args.normalSpace == NormalSpace::tangent ? SculptLayer::tangentNormal : SculptLayer::objectNormal;
     std::vector<LayerFile> files;
-    for (const LayerFile& file : {LayerFile{args.normals, normal}, LayerFile{args.position, Layer::position},
-                                  LayerFile{args.vector, Layer::vector}, LayerFile{args.occlusion, Layer::occlusion},
-                                  LayerFile{args.curvature, Layer::curvature}})
+    for (const LayerFile& file :
+         {LayerFile{args.normals, normal}, LayerFile{args.position, SculptLayer::position},
+          LayerFile{args.vector, SculptLayer::vector}, LayerFile{args.occlusion, SculptLayer::occlusion},
+          LayerFile{args.curvature, SculptLayer::curvature}})
         if (!file.path.empty()) files.push_back(file);
     return files;
 }
 
 /// Numbers with a unit are written as floats.
-bool hasUnit(Layer layer) { return layer == Layer::position || layer == Layer::vector || layer == Layer::curvature; }
+bool hasUnit(SculptLayer layer) {
+    return layer == SculptLayer::position || layer == SculptLayer::vector || layer == SculptLayer::curvature;
+}
 
 void checkLayer(const LayerFile& file, const std::vector<std::string>& inputs) {
     const std::string extension = lowerExtension(file.path);
@@ -224,13 +228,13 @@ void writeLayers(const BakeArgs& args, BakedHeights& baked, const Coordinates& c
             for (std::size_t k = 0; k < image.texels.size(); ++k)
                 image.texels[k] = float(change(double(image.texels[k]), int(k) % image.channels));
         };
-        const double up = layer == Layer::tangentNormal && args.normalY == NormalY::down ? -1 : 1;
-        if (layer == Layer::tangentNormal || layer == Layer::objectNormal)
+        const double up = layer == SculptLayer::tangentNormal && args.normalY == NormalY::down ? -1 : 1;
+        if (layer == SculptLayer::tangentNormal || layer == SculptLayer::objectNormal)
             mapEach([&](double n, int k) { return 0.5 * (k == 1 ? up : 1.0) * n + 0.5; });
-        if (layer == Layer::position)
+        if (layer == SculptLayer::position)
             mapEach([&](double x, int k) { return coordinates.origin[k] + coordinates.unit * x; });
-        if (layer == Layer::vector) mapEach([&](double x, int) { return coordinates.unit * x; });
-        if (layer == Layer::curvature) mapEach([&](double x, int) { return x / coordinates.unit; });
+        if (layer == SculptLayer::vector) mapEach([&](double x, int) { return coordinates.unit * x; });
+        if (layer == SculptLayer::curvature) mapEach([&](double x, int) { return x / coordinates.unit; });
         const bool isExr = lowerExtension(path) == ".exr";
         writeImage(path, image, isExr || hasUnit(layer) ? SampleType::real : SampleType::uint16);
         image = {};

@@ -28,7 +28,7 @@ public:
         const std::size_t count = std::size_t(map_.width) * std::size_t(map_.height);
         map_.heights.assign(count, 0);
         map_.states.assign(count, TexelState::outside);
-        for (const Layer layer : options_.layers.layers) {
+        for (const SculptLayer layer : options_.layers.layers) {
             Image image{map_.width, map_.height, channelsOf(layer), {}};
             image.texels.assign(count * std::size_t(image.channels), 0);
             map_.layers.push_back(std::move(image));
@@ -106,8 +106,8 @@ private:
             Image& image = map_.layers[i];
             const auto width = std::size_t(image.channels);
             double length = count;
-            const Layer layer = options_.layers.layers[i];
-            if (layer == Layer::tangentNormal || layer == Layer::objectNormal)
+            const SculptLayer layer = options_.layers.layers[i];
+            if (layer == SculptLayer::tangentNormal || layer == SculptLayer::objectNormal)
                 length = std::max(glm::length(dvec3(channels[0], channels[1], channels[2])), 1e-30);
             for (std::size_t k = 0; k < width; ++k) image.texels[texel * width + k] = float(*channels++ / length);
         }

@@ -73,7 +73,7 @@ SculptDetail computeSculptDetail(const TriangleView& triangles, Facing facing) {
 
 int LayerSampler::channelCount() const {
     int count = 0;
-    for (const Layer layer : options_.layers) count += channelsOf(layer);
+    for (const SculptLayer layer : options_.layers) count += channelsOf(layer);
     return count;
 }
 
@@ -116,15 +116,15 @@ void LayerSampler::evaluate(const TexelSample& sample, const LimitFrame& frame, 
     const auto put = [&](const dvec3& value) {
         for (int k = 0; k < 3; ++k) channels[next++] = value[k];
     };
-    for (const Layer layer : options_.layers) switch (layer) {
-        case Layer::tangentNormal:
+    for (const SculptLayer layer : options_.layers) switch (layer) {
+        case SculptLayer::tangentNormal:
             put(toTangentSpace(frame, surface_.texture(sample.face, dvec2(sample.uv)).jacobian, normal, sculptNormal));
             break;
-        case Layer::objectNormal: put(sculptNormal); break;
-        case Layer::position: put(q); break;
-        case Layer::vector: put(hit.height * normal); break;
-        case Layer::occlusion: channels[next++] = openShare(q, sculptNormal, sample.texel); break;
-        case Layer::curvature: channels[next++] = curvature; break;
+        case SculptLayer::objectNormal: put(sculptNormal); break;
+        case SculptLayer::position: put(q); break;
+        case SculptLayer::vector: put(hit.height * normal); break;
+        case SculptLayer::occlusion: channels[next++] = openShare(q, sculptNormal, sample.texel); break;
+        case SculptLayer::curvature: channels[next++] = curvature; break;
         }
 }
 

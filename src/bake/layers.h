@@ -6,7 +6,7 @@
 
 namespace relief {
 
-enum class Layer {
+enum class SculptLayer {
     tangentNormal, ///< of the sculpt, along s, along t and along the limit normal
     objectNormal,
     position,  ///< of the sculpt, in the unit of the surface
@@ -16,7 +16,9 @@ enum class Layer {
 };
 
 /// Channels of a layer's image.
-constexpr int channelsOf(Layer layer) { return layer == Layer::occlusion || layer == Layer::curvature ? 1 : 3; }
+constexpr int channelsOf(SculptLayer layer) {
+    return layer == SculptLayer::occlusion || layer == SculptLayer::curvature ? 1 : 3;
+}
 
 /// The vertices of a sculpt. Vertices at equal positions have the same values.
 struct SculptDetail {
@@ -28,7 +30,7 @@ struct SculptDetail {
 SculptDetail computeSculptDetail(const TriangleView& triangles, Facing facing);
 
 struct LayerOptions {
-    std::vector<Layer> layers;
+    std::vector<SculptLayer> layers;
     const SculptDetail* detail = nullptr; ///< of the sculpt; needed for all layers but position and vector
     int occlusionLines = 16;              ///< per sample
     double occlusionReach = 0;            ///< how far away something still covers the sky

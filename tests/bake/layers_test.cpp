@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kLayerSide = 32;
 
-std::vector<Image> bakeLayers(const Baking& baking, const TriangleMesh& mesh, std::vector<Layer> layers,
+std::vector<Image> bakeLayers(const Baking& baking, const TriangleMesh& mesh, std::vector<SculptLayer> layers,
                               Facing facing = Facing::front) {
     const MeasuredSurface sculpt = measured(mesh);
     const SculptDetail detail = computeSculptDetail(sculpt.triangles(), facing);
@@ -28,7 +28,8 @@ TEST(Layers, ofASineAreItsDerivatives) {
         const Baking baking(cage, {.width = kLayerSide, .height = kLayerSide, .wrap = Wrap::clamp});
         const std::vector<Image> layers =
             bakeLayers(baking, hillsOverGrid(800, [](double x, double) { return 0.3 * std::sin(2 * x); }),
-                       {Layer::tangentNormal, Layer::objectNormal, Layer::position, Layer::vector, Layer::curvature});
+                       {SculptLayer::tangentNormal, SculptLayer::objectNormal, SculptLayer::position,
+                        SculptLayer::vector, SculptLayer::curvature});
         for (int y = 2; y < kLayerSide - 2; ++y)
             for (int x = 2; x < kLayerSide - 2; ++x) {
                 const double s = (x + 0.5) / kLayerSide, at = 4 * (isMirrored ? 1 - s : s),
@@ -54,12 +55,12 @@ TEST(Layers, ofOcclusionAreHalfInTheCornerOfAWall) {
     TriangleMesh room = hillsOverGrid(8, [](double, double) { return 0.01; });
     append(room, sheetThrough(8, [](double s, double t) { return dvec3(0, 40 * t, 20 - 44 * s); }));
     const Baking baking(squareGrid(), {.width = kLayerSide, .height = kLayerSide, .wrap = Wrap::clamp});
-    const std::vector<Image> layers = bakeLayers(baking, room, {Layer::occlusion});
+    const std::vector<Image> layers = bakeLayers(baking, room, {SculptLayer::occlusion});
     EXPECT_NEAR(*layers[0].at(0, kLayerSide / 2), 0.5, 0.05);
     EXPECT_NEAR(*layers[0].at(kLayerSide - 1, kLayerSide / 2), 0.5 + 0.5 * std::sin(std::atan(4 / 8.06)), 0.08);
     // Without the wall all of it is there.
     const TriangleMesh floor = hillsOverGrid(8, [](double, double) { return 0.01; });
-    const std::vector<Image> open = bakeLayers(baking, floor, {Layer::occlusion});
+    const std::vector<Image> open = bakeLayers(baking, floor, {SculptLayer::occlusion});
     for (const float share : open[0].texels) EXPECT_EQ(share, 1);
 }
 
