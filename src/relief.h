@@ -11,6 +11,7 @@
 #include "formula/formula.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"
+#include "light/light.h"
 #include "maps/maps.h"
 #include "measure/measure.h"
 #include "mesh/mesh.h"

@@ -40,6 +40,9 @@ constexpr Command kCommands[] = {
     {"normal-map", "make a normal map of a height map", app::addNormalMap},
     {"height-map", "make a height map of a normal map", app::addHeightMap},
     {"bake", "make a height map of a sculpt over a cage, with a certificate", app::addBake},
+    {"environment", "turn a picture of an environment into another shape, or blur it", app::addEnvironment},
+    {"matcap", "draw a ball of a material in light, for --shading matcap", app::addMatcap},
+    {"shading-table", "write the table of --shading table", app::addShadingTable},
     {"info", "describe files, or the Vulkan devices of this machine", app::addInfo},
 };
 
