@@ -8,6 +8,7 @@
 #include "check/check.h"
 #include "displacement/displacement.h"
 #include "distance/distance.h"
+#include "doctor/doctor.h"
 #include "formula/formula.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"

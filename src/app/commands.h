@@ -16,6 +16,7 @@ Run addAnimate(CLI::App& app);
 Run addExport(CLI::App& app);
 Run addSample(CLI::App& app);
 Run addCheck(CLI::App& app);
+Run addDoctor(CLI::App& app);
 Run addBench(CLI::App& app);
 Run addNormalMap(CLI::App& app);
 Run addHeightMap(CLI::App& app);
