@@ -19,3 +19,4 @@
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "triangles/triangles.h"
+#include "view/view.h"

@@ -42,7 +42,8 @@ struct Renderer::Parts {
         const MeshModel* mesh = nullptr;
         PassInputs inputs{}; ///< in the model's own space
         PassBindings bindings{};
-        View view; ///< in the model's own space
+        View view;     ///< in the model's own space
+        View rateView; ///< what rates are measured from: `view`, or that of RenderOptions::rateCamera
         EdgeRates rates;
         RateTables rateTables;
         TexelBuffer drawFaces;
