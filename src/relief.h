@@ -21,3 +21,4 @@
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "triangles/triangles.h"
+#include "view/view.h"

@@ -24,6 +24,7 @@ Run addBake(CLI::App& app);
 Run addEnvironment(CLI::App& app);
 Run addMatcap(CLI::App& app);
 Run addShadingTable(CLI::App& app);
+Run addView(CLI::App& app);
 Run addInfo(CLI::App& app);
 
 } // namespace relief::app

@@ -33,6 +33,7 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "draw one picture of a displaced cage, or of a mesh of triangles", app::addRender},
     {"animate", "draw the frames of a cage that moves, as pictures or as a clip", app::addAnimate},
+    {"view", "show a displaced cage in a window: turn it, change it, play it", app::addView},
     {"export", "write the displaced triangles as a mesh", app::addExport},
     {"sample", "evaluate points, tangents and normals of the surface on the device", app::addSample},
     {"check", "certify that the triangles are watertight, exact and one-to-one", app::addCheck},
