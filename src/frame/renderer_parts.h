@@ -48,7 +48,6 @@ struct Renderer::Parts {
         PassBindings bindings{};
         View view; ///< in the model's own space
         glm::dmat4 toWorld{1};
-        View view;     ///< in the model's own space
         View rateView; ///< what rates are measured from: `view`, or that of RenderOptions::rateCamera
         EdgeRates rates;
         RateTables rateTables;
@@ -87,7 +86,7 @@ struct Renderer::Parts {
         FrameStats stats;
 
         std::uint32_t shading = kShadingPhysical; ///< kShading...
-        bool writesIds = false;                   ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
+        bool writesIds = false; ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
 
         [[nodiscard]] bool hasInstances() const { return drawn.size() > 1; }
         [[nodiscard]] bool rastersInCompute() const {
@@ -102,7 +101,7 @@ struct Renderer::Parts {
             if (!technique.isLit || shading == kShadingMatcap) return {};
             return options.lighting.others;
         }
-        [[nodiscard]] bool castsShadows() const { 
+        [[nodiscard]] bool castsShadows() const {
             return options.lighting.castsShadows && technique.isLit && shading != kShadingMatcap;
         }
     };
