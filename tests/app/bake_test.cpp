@@ -58,13 +58,25 @@ TEST_F(Bake, comesBackWithinHalfAStepOfATexel) {
     EXPECT_LT(report["surface_to_sculpt"]["rms_percent"], 0.05);
 
     // Integers say how they are to be read, and are the same map.
-    const nlohmann::json codes = jsonOf(bake({cage, sculpt, "-o", folder / "map.png", "--json"}, "--size 128,128"));
+    const nlohmann::json codes = jsonOf(bake({cage, sculpt, "-o", folder / "map.png", "--json", "--normal",
+                                              folder / "n.png", "--curvature", folder / "c.exr"},
+                                             "--size 128,128"));
     EXPECT_LT(differences(folder / "map.png", codes["mid"], codes["scale"]).x, 0.5 * rms.y);
     const nlohmann::json again =
         jsonOf(bake({cage, sculpt, "--check", "--height", folder / "map.png", "--json"},
                     fmt::format("--mid {} --scale {}", double(codes["mid"]), double(codes["scale"]))));
     EXPECT_NEAR(again["rms"], double(codes["rms"]), 1e-8);
     EXPECT_NEAR(again["seam_gap"], double(codes["seam_gap"]), 1e-8);
+
+    // Normals look out of the surface, and are as steep as the heights.
+    const Image normals = readImage(folder / "n.png"), curvature = readImage(folder / "c.exr");
+    ASSERT_EQ(normals.channels, 3);
+    ASSERT_EQ(curvature.channels, 1);
+    for (int i = 0; i < kSide; ++i) {
+        const float* n = normals.at(i, i);
+        EXPECT_NEAR(glm::length(2.0f * vec3(n[0], n[1], n[2]) - 1.0f), 1, 1e-4);
+        EXPECT_GT(n[2], 0.6f);
+    }
 
     // The map is there, whatever the certificate says of it.
     std::filesystem::remove(map);
@@ -98,6 +110,7 @@ TEST_F(Bake, refusesWhatCannotBeBaked) {
     expect({cage, sculpt}, Failure::usage, {"-o"});
     expect({cage, sculpt, "--check"}, Failure::usage, {"--height"});
     expect({cage, sculpt, "-o", folder / "h.png", "--format", "half"}, Failure::usage, {"h.png", ".png holds no half"});
+    expect({cage, sculpt, "-o", map, "--position", folder / "p.png"}, Failure::usage, {"p.png", "as .exr or .tif"});
     expect({cage, sculpt, "-o", map, "--max-distance", "-1"}, Failure::usage, {"--max-distance"});
     const Outcome full = shell("ulimit -f 8; exec \"$RELIEF\" bake " + cage +
                                    " $IN/sculpt.ply -o $IN/map.exr -q "
