@@ -27,19 +27,19 @@ TEST(Layers, ofASineAreItsDerivatives) {
             for (vec2& st : cage.texCoords) st.x = 1 - st.x;
         const Baking baking(cage, {.width = kLayerSide, .height = kLayerSide, .wrap = Wrap::clamp});
         const std::vector<Image> layers =
-            bakeLayers(baking, hillsOverGrid(800, [](double x, double) { return 0.3 * std::sin(2 * x); }),
+            bakeLayers(baking, hillsOverGrid(800, [](double x, double z) { return 0.3 * std::sin(2 * x) + 0.1 * z; }),
                        {SculptLayer::tangentNormal, SculptLayer::objectNormal, SculptLayer::position,
                         SculptLayer::vector, SculptLayer::curvature});
         for (int y = 2; y < kLayerSide - 2; ++y)
             for (int x = 2; x < kLayerSide - 2; ++x) {
                 const double s = (x + 0.5) / kLayerSide, at = 4 * (isMirrored ? 1 - s : s),
                              z = -4 * (1 - (y + 0.5) / kLayerSide);
-                const double height = 0.3 * std::sin(2 * at), slope = 0.6 * std::cos(2 * at);
-                const dvec3 normal = glm::normalize(dvec3(-slope, 1, 0));
+                const double height = 0.3 * std::sin(2 * at) - 0.1 * z, slope = 0.6 * std::cos(2 * at);
+                const dvec3 normal = glm::normalize(dvec3(-slope, 1, 0.1));
                 const auto expect = [&](std::size_t layer, const dvec3& value, double tolerance) {
                     for (int k = 0; k < 3; ++k) EXPECT_NEAR(layers[layer].at(x, y)[k], value[k], tolerance) << layer;
                 };
-                expect(0, {isMirrored ? -normal.x : normal.x, 0, normal.y}, 1e-3);
+                expect(0, {isMirrored ? -normal.x : normal.x, -normal.z, normal.y}, 1e-3);
                 expect(1, normal, 1e-3);
                 expect(2, {at, height, z}, 1e-4);
                 expect(3, {0, height, 0}, 1e-4);
