@@ -247,6 +247,7 @@ int bake(const BakeArgs& args) {
                       {.reach = reach,
                        .facing = facing,
                        .wrap = args.object.height.wrap.value_or(Wrap::repeat),
+                       .dropsBehind = args.dropsBehind,
                        .progress = args.output.progress},
                       report);
         map.scale /= unit;

@@ -53,6 +53,9 @@ void addLines(CLI::App& app, BakeArgs& args) {
                "--max-distance", [&args](const std::string& words) { parseReach(words, args); },
                "how far lines reach along the normals and against them: cage units, or a percentage of the sculpt's "
                "diagonal (default: 5%)"));
+    app.add_flag("--drop-behind", args.dropsBehind,
+                 "a hit behind the back of another sheet is none: its texel is a void")
+        ->group(group);
     listIn(group, "N",
            app.add_option("--dilate", args.margin,
                           "texels beyond the borders of islands that show the surface across the seam (default: 2)")

@@ -32,7 +32,7 @@ struct BakeArgs {
     int sampleCount = 4;
     double margin = 2;
     Distance front{0.05, true}, back{0.05, true}, tolerance{0.001, true};
-    bool checksOnly = false;
+    bool checksOnly = false, dropsBehind = false;
     Output output;
 };
 

@@ -83,13 +83,15 @@ private:
         const LimitFrame frame = surface_.limit(sample.face, uv);
         const dvec3 normal =
             frame.hasTangentPlane() ? glm::normalize(glm::cross(frame.pu, frame.pv)) : surface_.normal(sample.face, uv);
-        const std::optional<LineHit> hit = sculpt_.nearestOnLine(frame.p, normal, options_.reach, options_.facing);
+        std::optional<LineHit> hit = sculpt_.nearestOnLine(frame.p, normal, options_.reach, options_.facing);
+        const bool isBehind = hit && hit->isBehindBack;
+        if (isBehind && options_.dropsBehind) hit.reset();
         sums.isAnywhere = true;
         sums.isInside = sums.isInside || sample.isInside;
         if (sample.isInside) {
             ++counts.sampleCount;
             counts.missCount += hit ? 0 : 1;
-            counts.behindCount += hit && hit->isBehindBack ? 1 : 0;
+            counts.behindCount += isBehind ? 1 : 0;
         }
         if (!hit) return false;
         sums.heights += double(sample.weight) * hit->height;

@@ -17,6 +17,7 @@ struct BakeOptions {
     LineReach reach;               ///< of lines along the normal and against it
     Facing facing = Facing::front; ///< of the triangles that count
     Wrap wrap = Wrap::repeat;      ///< what lies outside of the map
+    bool dropsBehind = false;      ///< hits behind the back of another triangle are none
     LayerOptions layers;           ///< what is baked besides
     ShowProgress progress = ShowProgress::never;
 };
