@@ -63,7 +63,6 @@ PictureArgs toPictureArgs(const Look& look, const PictureArgs& asked) {
 }
 
 void print(const ViewArgs& args, const ViewReport& report) {
-    for (const std::string& line : report.counts) std::cout << line << '\n';
     if (args.output.isJson)
         printJson({{"device", report.device},
                    {"frames", report.frameCount},
@@ -96,7 +95,8 @@ int view(const ViewArgs& args, const CLI::App& app) {
                         .quitAfter = args.quitAfter,
                         .screenshot = args.screenshot,
                         .record = args.record,
-                        .play = args.play};
+                        .play = args.play,
+                        .report = [](const std::string& line) { std::cout << line << std::endl; }};
     print(args, runWindow(desc, makeWarn(args.output.isQuiet)));
     return 0;
 }

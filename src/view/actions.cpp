@@ -56,7 +56,7 @@ void Viewer::takeEvents(double now) {
         const Event event = live.front();
         if (event.kind == EventKind::press && hasMoved) return;
         live.pop_front();
-        if (record_.is_open()) record_ << toLine(event) << '\n';
+        record(event);
         apply(event);
         uiFrames_ = kFramesAfterEvent;
         hasMoved = hasMoved || event.kind == EventKind::move;
@@ -87,8 +87,17 @@ bool Viewer::takePlayed(double now) {
     }
     if (framesToPlay_ > 0) return false;
     played_.pop_front();
+    record(event);
     apply(event);
     return event.kind != EventKind::report;
+}
+
+/// Writes an event, and before it that the picture was at rest, so that the session plays the same on any device.
+void Viewer::record(const Event& event) {
+    if (!record_.is_open()) return;
+    if (pacing_.isAtRest() && hasMovedSinceRest_) record_ << toLine({.kind = EventKind::rest}) << '\n';
+    hasMovedSinceRest_ = !pacing_.isAtRest();
+    record_ << toLine(event) << '\n' << std::flush;
 }
 
 void Viewer::apply(const Event& event) {
@@ -305,7 +314,7 @@ void Viewer::report() {
                                 {"triangles", stats_.triangleCount},
                                 {"error", state_.error},
                                 {"command", command()}};
-    report_.counts.push_back(counts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    desc_.report(counts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 // --- panels --------------------------------------------------------------------------------------------------------
