@@ -122,7 +122,8 @@ TEST(Window, writesWhatRenderWritesAfterEverythingThatAUserDoes) {
     RELIEF_DISPLAY;
     const TemporaryFolder folder;
     writeWaves(folder / "waves.png", 3);
-    writeImage(folder / "sky.hdr", Image{8, 4, 3, std::vector<float>(96, 0.7f)}, SampleType::real);
+    // Radiance: 8 x 4 pixels of red, green, blue and a shared exponent.
+    writeFile(folder / "sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" + std::string(128, '\x80'));
     writeFile(folder / "broken.png", "no picture");
     // Turned, moved, zoomed, lit; three files; a picture that cannot be read; all keys; another size; nothing at all.
     std::string lines = "rest\nmove 200 100\npress left\nmove 230 110\nmove 250 120\nrelease left\nwheel 2\n"
