@@ -67,7 +67,7 @@ void Viewer::takeEvents(double now) {
 /// Applies the next played event if it is its turn; returns whether it was.
 bool Viewer::takePlayed(double now) {
     const Event event = played_.front();
-    const bool isResting = pacing_.isAtRest() && uiFrames_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
+    const bool isResting = pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
     switch (event.kind) {
     case EventKind::rest:
         if (isResting) played_.pop_front();

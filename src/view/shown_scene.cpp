@@ -44,6 +44,7 @@ Prepared prepareScene(const ViewDesc& desc, const Look& look) {
     prepared.loaded = load(look.scene, isMoving ? CageState::atRest : CageState::posed, warn);
     const LoadedObject& object = prepared.loaded.object;
     if (isMoving) prepared.frames = desc.listFrames(object.animation.get());
+    std::ranges::sort(prepared.frames); // lists may count down
     if (!object.function) prepared.points = computePoints(prepared);
     return prepared;
 }
