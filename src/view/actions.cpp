@@ -67,7 +67,8 @@ void Viewer::takeEvents(double now) {
 /// Applies the next played event if it is its turn; returns whether it was.
 bool Viewer::takePlayed(double now) {
     const Event event = played_.front();
-    const bool isResting = pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
+    const bool isResting =
+        pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
     switch (event.kind) {
     case EventKind::rest:
         if (isResting) played_.pop_front();
@@ -95,8 +96,10 @@ bool Viewer::takePlayed(double now) {
 /// Writes an event, and before it that the picture was at rest, so that the session plays the same on any device.
 void Viewer::record(const Event& event) {
     if (!record_.is_open()) return;
-    if (pacing_.isAtRest() && hasMovedSinceRest_) record_ << toLine({.kind = EventKind::rest}) << '\n';
-    hasMovedSinceRest_ = !pacing_.isAtRest();
+    if (pacing_.isAtRest() && report_.pictureCount != recordedPictures_) {
+        record_ << toLine({.kind = EventKind::rest}) << '\n';
+        recordedPictures_ = report_.pictureCount;
+    }
     record_ << toLine(event) << '\n' << std::flush;
 }
 

@@ -92,7 +92,7 @@ private:
 
     // Events.
     std::ofstream record_;
-    bool hasMovedSinceRest_ = true; ///< what was recorded last came while the picture was not at rest
+    std::uint64_t recordedPictures_ = 0; ///< drawn when it was last recorded that the picture was at rest
     std::deque<Event> played_;
     double playedUntil_ = 0; ///< of a wait
     int framesToPlay_ = 0;   ///< of `frames`

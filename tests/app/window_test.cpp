@@ -209,25 +209,24 @@ TEST(Window, showsTheFramesOfAnimate) {
 TEST(Window, keepsItsMemoryOverThreeHundredFrames) {
     RELIEF_DISPLAY;
     const TemporaryFolder folder;
-    std::string lines = "rest\n"; // two pictures of different sizes, again and again
-    const auto work = [&](int count) {
-        for (int i = 0; i < count; ++i) lines += "key V\nkey N\nrest\n";
-        for (int i = 0; i < 6; ++i) lines += "key N\n"; // all ways to show are compiled
-        lines += "rest\nreport\n";
-    };
-    work(12), work(36), lines += "frames 300\nreport\nclose\n";
+    // Everything is compiled; then two pictures by turns; then frames of panels alone.
+    std::string lines = "rest\nkey V\nrest\nkey V\nrest\nreport\n";
+    for (int i = 0; i < 60; ++i) lines += "key V\nrest\n";
+    lines += "report\nframes 300\nrest\nreport\nclose\n";
     writeSession(folder, "session", lines);
     // Without the validation layer, which keeps some kilobytes of every frame.
     const Outcome outcome =
-        shell("RELIEF_VALIDATE=0 $RELIEF view " + cagePath("torus") + " --size 96,64 --play $IN/session", folder);
+        shell("RELIEF_VALIDATE=0 $RELIEF view " + cagePath("torus") + " --size 160,120 --play $IN/session", folder);
     const std::vector<nlohmann::json> reports = reportsOf(outcome);
     ASSERT_EQ(reports.size(), 3u);
-    EXPECT_GE(reports[2]["frames"].get<int>(), reports[0]["frames"].get<int>() + 300);
+    EXPECT_GE(reports[1]["pictures"].get<int>(), reports[0]["pictures"].get<int>() + 60);
+    EXPECT_GE(reports[2]["frames"].get<int>(), reports[1]["frames"].get<int>() + 300);
     EXPECT_EQ(reports[0]["device_bytes"], reports[1]["device_bytes"]);
     EXPECT_EQ(reports[1]["device_bytes"], reports[2]["device_bytes"]);
-    for (int i = 0; i < 2; ++i)
-        EXPECT_LT(reports[std::size_t(i) + 1]["host_bytes"].get<double>(),
-                  reports[std::size_t(i)]["host_bytes"].get<double>() + 300e3);
+    // Mesa's CPU driver keeps some megabytes of a picture for the next one, or not. Sixty pictures would be nine.
+    const auto bytes = [&](std::size_t i) { return reports[i]["host_bytes"].get<double>(); };
+    EXPECT_LT(bytes(1), bytes(0) + 4e6);
+    EXPECT_LT(bytes(2), bytes(1) + 100e3);
 }
 
 TEST(Window, closesWhileAFunctionIsCompiled) {
@@ -263,7 +262,17 @@ TEST(Window, recordsWhatItPlays) {
     const std::string lines = "rest\nmove 50 20\npress left shift\nmove 60 25\nrelease left\nrest\nkey W\nclose\n";
     expectDone(relief({"view", cagePath("torus"), "--size", "96,64", "--play", writeSession(folder, "session", lines),
                        "--record", folder / "recorded"}));
-    EXPECT_EQ(readFile(folder / "recorded"), lines);
+    // When the picture comes to rest between events is the device's.
+    const auto withoutRests = [](const std::string& text) {
+        std::string kept;
+        std::istringstream each(text);
+        for (std::string line; std::getline(each, line);)
+            if (line != "rest") kept += line + '\n';
+        return kept;
+    };
+    const std::string recorded = readFile(folder / "recorded");
+    EXPECT_EQ(withoutRests(recorded), withoutRests(lines));
+    EXPECT_TRUE(recorded.starts_with("rest\nmove 50 20\n")) << recorded;
 }
 
 TEST(Window, writesItsFirstPictureAndCloses) {
