@@ -209,24 +209,27 @@ TEST(Window, showsTheFramesOfAnimate) {
 TEST(Window, keepsItsMemoryOverThreeHundredFrames) {
     RELIEF_DISPLAY;
     const TemporaryFolder folder;
-    // Everything is compiled; then two pictures by turns; then frames of panels alone.
-    std::string lines = "rest\nkey V\nrest\nkey V\nrest\nreport\n";
-    for (int i = 0; i < 60; ++i) lines += "key V\nrest\n";
-    lines += "report\nframes 300\nrest\nreport\nclose\n";
+    // Everything is compiled; then two pictures by turns, with six looks at the memory; then frames of panels alone.
+    std::string lines = "rest\nkey V\nrest\nkey V\nrest\n";
+    for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 10; ++k) lines += "key V\nrest\n";
+        lines += "report\n";
+    }
+    lines += "frames 300\nrest\nreport\nclose\n";
     writeSession(folder, "session", lines);
     // Without the validation layer, which keeps some kilobytes of every frame.
     const Outcome outcome =
         shell("RELIEF_VALIDATE=0 $RELIEF view " + cagePath("torus") + " --size 160,120 --play $IN/session", folder);
     const std::vector<nlohmann::json> reports = reportsOf(outcome);
-    ASSERT_EQ(reports.size(), 3u);
-    EXPECT_GE(reports[1]["pictures"].get<int>(), reports[0]["pictures"].get<int>() + 60);
-    EXPECT_GE(reports[2]["frames"].get<int>(), reports[1]["frames"].get<int>() + 300);
-    EXPECT_EQ(reports[0]["device_bytes"], reports[1]["device_bytes"]);
-    EXPECT_EQ(reports[1]["device_bytes"], reports[2]["device_bytes"]);
-    // Mesa's CPU driver keeps some megabytes of a picture for the next one, or not. Sixty pictures would be nine.
+    ASSERT_EQ(reports.size(), 7u);
+    EXPECT_GE(reports[5]["pictures"].get<int>(), reports[0]["pictures"].get<int>() + 50);
+    EXPECT_GE(reports[6]["frames"].get<int>(), reports[5]["frames"].get<int>() + 300);
+    for (const nlohmann::json& report : reports) EXPECT_EQ(report["device_bytes"], reports[0]["device_bytes"]);
+    // Mesa's CPU driver keeps some megabytes of a picture for the next one, or not: the least of three looks is what
+    // stays. Thirty pictures would be seven megabytes.
     const auto bytes = [&](std::size_t i) { return reports[i]["host_bytes"].get<double>(); };
-    EXPECT_LT(bytes(1), bytes(0) + 4e6);
-    EXPECT_LT(bytes(2), bytes(1) + 100e3);
+    EXPECT_LT(std::min({bytes(3), bytes(4), bytes(5)}), std::min({bytes(0), bytes(1), bytes(2)}) + 3e6);
+    EXPECT_LT(bytes(6), bytes(5) + 100e3);
 }
 
 TEST(Window, closesWhileAFunctionIsCompiled) {
