@@ -35,7 +35,10 @@ std::vector<GivenOption> listGiven(const CLI::App& app) {
         const std::string name = option->get_positional() ? "" : "--" + option->get_lnames().front();
         if (std::ranges::find(kOwnOptions, name) != std::end(kOwnOptions)) continue;
         const bool isFlag = option->get_expected_max() == 0;
-        given.push_back({name, isFlag ? "" : fmt::format("{}", fmt::join(option->results(), ","))});
+        if (option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll && option->get_delimiter() == 0)
+            for (const std::string& value : option->results()) given.push_back({name, value}); // as --light
+        else
+            given.push_back({name, isFlag ? "" : fmt::format("{}", fmt::join(option->results(), ","))});
     }
     return given;
 }

@@ -355,14 +355,7 @@ void Viewer::seek(int frame) {
 
 void Viewer::step(int frames) { seek(state_.look.frame + frames); }
 
-Look Viewer::shownLook() const {
-    Look look = state_.look;
-    const Look& shown = scene_->look();
-    look.scene.object = shown.scene.object;
-    look.scene.object.material.roughness = state_.look.scene.object.material.roughness;
-    look.scene.lighting.environment = shown.scene.lighting.environment;
-    return look;
-}
+Look Viewer::shownLook() const { return withFilesOf(scene_->look(), state_.look); }
 
 std::vector<std::string> Viewer::command() const {
     return toCommandWords(scene_->isMoving() ? "animate" : "render", desc_.given, desc_.look, shownLook());

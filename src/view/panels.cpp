@@ -120,7 +120,10 @@ void makeLight(ViewState& state, PanelWishes& wishes) {
     if (turns) scene.lighting.key = key;
     changes |= ImGui::Checkbox("shadows", &scene.lighting.castsShadows);
     auto& material = scene.object.material;
+    changes |= choose("shading", scene.shading.shading, kShadings);
     changes |= ImGui::SliderFloat("roughness", &material.roughness, 0.05f, 1);
+    changes |= slide("occlusion", scene.lighting.occlusionRadius, 0, 0.5);
+    explain("how far away the surface hides the environment from itself, as a share of the object's size");
     changes |= choose("filter", state.look.filter, kFilters);
     wishes.changesPicture |= changes || turns;
 }
