@@ -103,6 +103,9 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
+    values[kIdShading] = shading;
+    values[kIdAddsLight] = addsLight;
+    values[kIdHasOcclusion] = hasOcclusion;
     return values;
 }
 
