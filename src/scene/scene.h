@@ -75,7 +75,7 @@ struct ObjectDesc {
 };
 
 struct LightingDesc {
-    std::optional<dvec2> key; ///< azimuth and elevation of the key light, degrees; default: left of the camera
+    std::optional<dvec2> key;          ///< azimuth and elevation of the key light, degrees; default: left of the camera
     std::optional<double> keyStrength; ///< default: that of Lighting
     std::optional<vec3> keyColor;
     std::vector<DistantLight> others;
