@@ -38,7 +38,10 @@ RELIEF_CONSTANT uint kIdReadsSampleBuffers = 25u; // light: samples are those of
 RELIEF_CONSTANT uint kIdWritesIds = 26u;          // raster: samples are numbers of triangles, for raster_resolve.comp
 RELIEF_CONSTANT uint kIdHasSampleColors = 27u;    // light: samples in buffers have colours of their own
 RELIEF_CONSTANT uint kIdReadsShadowCodes = 28u;   // light: the shadow map is that of raster_*.comp
-RELIEF_CONSTANT uint kIdCount = 29u;
+RELIEF_CONSTANT uint kIdMapAddressing = 29u;      // kMapOf... of shared/maps.h
+RELIEF_CONSTANT uint kIdReadsNodes = 30u;         // every sample lies on a node of a map per face, see heights.glsl
+RELIEF_CONSTANT uint kIdHasPictureTiles = 31u;    // pictures cover more than the unit square, see lookup.glsl
+RELIEF_CONSTANT uint kIdCount = 32u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

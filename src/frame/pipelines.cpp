@@ -18,6 +18,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
     c.pass = row.constant;
     c.hasMips = drawn.rates.hasMips();
+    c.readsNodes = drawn.surface != nullptr && readsNodes(*drawn.surface, drawn.rates);
     c.hasInstances = row.marksInstances && frame.hasInstances();
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();

@@ -37,6 +37,12 @@ struct GpuHeightMap {
     MapRecord record{};
     MapFormat format = MapFormat::real;
     float heightBound = 0; ///< largest |h|, cage units
+    Addressing addressing = Addressing::texture;
+};
+
+/// An edge on a map per face: how long it is in segments, and the highest less the lowest height along it.
+struct EdgeHeights {
+    float segments = 0, range = 0;
 };
 
 /// A colour picture with its mip levels, sRGB-encoded.
@@ -123,6 +129,8 @@ struct SurfaceModel {
     std::vector<Bounds> faceBounds;       ///< boxes around faces displaced by level 0 of the map; empty ones for holes
     std::vector<float> faceHeightBounds;  ///< largest |h| on each face in level 0 of the map, cage units
     std::vector<float> faceHeightRanges;  ///< FunctionHeights::faceRanges
+    std::vector<EdgeHeights> edgeHeights; ///< per edge where the map is per face, else empty
+    std::vector<ivec2> mapSegments;       ///< MapTile::segments per face where the map is per face, else empty
     std::vector<FaceNormals> faceNormals; ///< what bounds of normals are made of for other levels; empty as these
     std::vector<NormalBounds> normalBounds; ///< of displaced faces; empty unless the surface is closed and oriented
     int sideCount = 4;                      ///< of all faces: 4, or 3 of Loop surfaces
@@ -141,6 +149,7 @@ struct SurfaceModel {
     [[nodiscard]] bool hasMotion() const {
         return points.before != points.now || (function && tables.heightTime != tables.heightTimeBefore);
     }
+    [[nodiscard]] Addressing addressing() const { return height ? height->addressing : Addressing::texture; }
     [[nodiscard]] MapFormat mapFormat() const { return height ? height->format : MapFormat::real; }
 
     /// The time that a height function is given, in seconds, and that of the frame that motion is measured from; 0

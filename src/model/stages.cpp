@@ -103,6 +103,9 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
+    values[kIdMapAddressing] = std::uint32_t(addressing);
+    values[kIdReadsNodes] = readsNodes;
+    values[kIdHasPictureTiles] = hasPictureTiles;
     return values;
 }
 
@@ -112,6 +115,7 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
             .normal = normal,
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),
+            .addressing = model.addressing(),
             .hasWideIndices = model.hasWideIndices,
             .hasStraightCorners = model.hasStraightCorners,
             .heightFunction = model.function ? model.function->number() : 0,

@@ -143,6 +143,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     } else {
         object.options = {.scheme = toScheme(subdivision), .isolation = desc.isolation};
         object.surface = buildNamedSurface(object, desc.cage);
+        if (object.height) fitHeights(object, desc);
     }
     object.loadSeconds = loadEnd - start;
     object.surfaceSeconds = secondsNow() - loadEnd;

@@ -5,8 +5,14 @@
 
 namespace relief {
 
-/// Reads the height map of an object. Warns of a cage without texture coordinates, and as warnOutsideMap does.
+/// Reads the height map of an object. Warns of a cage without texture coordinates, of tiles that a set lacks, and as
+/// warnOutsideMap does. Throws Failure::usage for what does not go with a set of tiles or a map per face, and
+/// Failure::input for a set and a cage without texture coordinates.
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn);
+
+/// Fits a map per face to the surface of its cage and stores it as its encoding says. Does nothing with other maps.
+/// Throws Failure::input for a map that was made for another cage.
+void fitHeights(LoadedObject& object, const ObjectDesc& desc);
 
 /// Reads and compiles the height function of an object. Its bounds are not known yet.
 FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage);
