@@ -19,6 +19,7 @@ Run addCheck(CLI::App& app);
 Run addBench(CLI::App& app);
 Run addNormalMap(CLI::App& app);
 Run addHeightMap(CLI::App& app);
+Run addMap(CLI::App& app);
 Run addInfo(CLI::App& app);
 
 } // namespace relief::app

@@ -39,6 +39,7 @@ constexpr Command kCommands[] = {
     {"bench", "measure what displacement costs and saves, against dense meshes", app::addBench},
     {"normal-map", "make a normal map of a height map", app::addNormalMap},
     {"height-map", "make a height map of a normal map", app::addHeightMap},
+    {"map", "make a map per face of a height map, or the other way round", app::addMap},
     {"info", "describe files, or the Vulkan devices of this machine", app::addInfo},
 };
 

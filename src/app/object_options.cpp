@@ -24,7 +24,8 @@ void addWeld(CLI::App& app, std::optional<Distance>& weld) {
 
 void addHeights(CLI::App& app, HeightDesc& height) {
     const char* group = "height";
-    listIn(group, "MAP", app.add_option("--height", height.path, "height map: .exr .tif .png .hdr .jpg"));
+    listIn(group, "MAP", app.add_option("--height", height.path, "height map: .exr .tif .png .hdr .jpg; a name with <UDIM>, %(UDIM)d, <uvtile> or <UVTILE> is a set of "
+                                   "tiles, and what relief map writes a map per face"));
     addHeightValues(app, height);
     listIn(group, "WRAP",
            addEnum(app, "--wrap", height.wrap, kWraps,
@@ -85,7 +86,7 @@ void addObject(CLI::App& app, ObjectDesc& object) {
     addMotion(app, object.motion);
 }
 
-void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
+void addSubdivisionOptions(CLI::App& app, ObjectDesc& object) {
     listIn("surface", "SCHEME",
            addEnum(app, "--scheme", object.subdivision, kSubdivisions,
                    "how the cage is subdivided (default: none where all faces are triangles, else catmark)"));
@@ -96,6 +97,10 @@ void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
                                       object.isolation))
                ->check(CLI::Range(0, 10)));
     addWeld(app, object.weld);
+}
+
+void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
+    addSubdivisionOptions(app, object);
     addHeights(app, object.height);
 }
 

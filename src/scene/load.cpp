@@ -89,13 +89,14 @@ void splitForTangents(LoadedObject& object) {
 } // namespace
 
 std::vector<std::string> listFiles(const ObjectDesc& object) {
-    return {object.cage,
-            object.height.path,
-            object.height.function,
-            object.motion.cachePath,
-            object.motion.skinPath,
-            object.material.albedo,
-            object.material.normalMap.path};
+    std::vector<std::string> files{object.cage, object.height.function, object.motion.cachePath,
+                                   object.motion.skinPath};
+    for (const std::string& map : {object.height.path, object.material.albedo, object.material.normalMap.path}) {
+        files.push_back(map);
+        if (!findTilePattern(map)) continue;
+        for (const TileFile& tile : listTiles(map)) files.push_back(tile.path);
+    }
+    return files;
 }
 
 std::vector<std::string> listFiles(const SceneDesc& scene) {
