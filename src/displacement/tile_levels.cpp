@@ -85,8 +85,14 @@ double TileLevels::beyondUnitSquare(std::size_t tile, std::uint32_t level, int c
     const dvec2 st = dvec2(set_.tiles[tile].place) + dvec2((column + 0.5) / own.size.x, 1 - (row + 0.5) / own.size.y);
     const ivec2 place(glm::floor(st));
     const MapTile* other = findTileAt(set_.tiles, place);
-    if (other == nullptr)
-        return double(own.at(std::clamp(column, 0, own.size.x - 1), std::clamp(row, 0, own.size.y - 1)));
+    if (other == nullptr) {
+        // Beside a corner one of the two other tiles there may go on.
+        const int c = std::clamp(column, 0, own.size.x - 1), r = std::clamp(row, 0, own.size.y - 1);
+        if (c == column || r == row) return double(own.at(c, r));
+        const bool hasBeside =
+            findTileAt(set_.tiles, set_.tiles[tile].place + ivec2(column < 0 ? -1 : 1, 0)) != nullptr;
+        return hasBeside ? beyondUnitSquare(tile, level, column, r) : beyondUnitSquare(tile, level, c, row);
+    }
     const Grids& grids = tiles_[std::size_t(other - set_.tiles.data())];
     const ivec2 ownSize = set_.tiles[tile].size;
     const Grid& grid = grids[levelAsFine(level, std::max(ownSize.x, ownSize.y), std::max(other->size.x, other->size.y),
