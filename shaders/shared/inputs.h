@@ -34,6 +34,9 @@ struct ModelTables {
     float heightTimeBefore; // height functions: time of the frame that motion is measured from, seconds
     float heightUnit;       // height functions: cage units per unit of positions
     float heightStep;       // height functions: distance of differences to either side, in units of positions
+    vec4 albedoTiles;       // what pictures cover, see lookup.glsl
+    vec4 slopeTiles;
+    vec4 normalTiles;
     MapRecord maps[kMostMaps];
 };
 
@@ -119,7 +122,7 @@ struct PassInputs {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ModelTables) == 18 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
+static_assert(sizeof(ModelTables) == 30 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
 static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16);
 static_assert(sizeof(Material) == 20 && sizeof(Targets) == 18 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));

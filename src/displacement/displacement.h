@@ -70,6 +70,14 @@ HeightSample sampleHeight(const HeightMap& map, const MapPlace& place);
 /// The same of a map that goes by texture coordinates.
 HeightSample sampleHeight(const HeightMap& map, const dvec2& st);
 
+/// Makes one map of a set of tiles, over all unit squares that it spans: each as many texels as the largest tile, or as
+/// many as keep it 16384 texels a side at most. Without a tile there is no height.
+struct JoinedMap {
+    HeightMap map; ///< over its own unit square
+    PictureTiles tiles;
+};
+JoinedMap joinTiles(const HeightMap& set);
+
 /// The slopes of a height map at each of its texels and those of its mips, down to a single texel: central differences
 /// over one texel of the level, so that bilinear lookups of them are those of sampleHeight().
 struct SlopeMap {

@@ -1,4 +1,4 @@
-// Internal: work on many tiles at once.
+// For other modules: work on many tiles at once.
 #pragma once
 
 #include <algorithm>

@@ -160,6 +160,31 @@ void fitToFaces(HeightMap& map, const Surface& surface) {
     finishTiles(map);
 }
 
+JoinedMap joinTiles(const HeightMap& set) {
+    constexpr int kMostSide = 16384;
+    const TileGrid grid = gridOf(set); // with a row and a column more on each side
+    JoinedMap joined{.map = {.mid = set.mid, .scale = set.scale, .wrap = Wrap::clamp},
+                     .tiles = {grid.first + 1, grid.count - 2}};
+    ivec2 size(set.width, set.height);
+    while (glm::any(glm::greaterThan(size * joined.tiles.count, ivec2(kMostSide)))) size = glm::max(size / 2, ivec2(1));
+    HeightMap& map = joined.map;
+    map.width = size.x * joined.tiles.count.x, map.height = size.y * joined.tiles.count.y;
+    map.texels.assign(std::size_t(map.width) * std::size_t(map.height), float(set.mid));
+    forEachAtOnce(std::size_t(map.height), [&](std::size_t y) {
+        for (int x = 0; x < map.width; ++x) {
+            const dvec2 st = dvec2(joined.tiles.first) +
+                             dvec2((x + 0.5) / size.x, joined.tiles.count.y - (double(y) + 0.5) / size.y);
+            if (const MapTile* tile = findTileAt(set.tiles, ivec2(glm::floor(st)))) {
+                const dvec2 texels(tile->size), within = st - dvec2(tile->place);
+                map.texels[y * std::size_t(map.width) + std::size_t(x)] =
+                    float(TileLookup(set, *tile).at(within.x * texels.x - 0.5, (1 - within.y) * texels.y - 0.5));
+            }
+        }
+    });
+    findRange(map);
+    return joined;
+}
+
 HeightSample sampleHeight(const HeightMap& map, const MapPlace& place) {
     if (map.addressing == Addressing::texture) return sampleHeight(map, place.st);
     if (map.addressing == Addressing::faces) {

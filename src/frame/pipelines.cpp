@@ -22,6 +22,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     c.hasInstances = row.marksInstances && frame.hasInstances();
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();
+    c.hasPictureTiles = row.hasNormals && pictures.haveTiles();
     if (row.bendsNormals) {
         c.hasTexGradients = pictures.needTexGradients() || drawn.isBentByFunction();
         c.hasSlopes = pictures.slopes.has_value() || drawn.isBentByFunction();

@@ -123,7 +123,7 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
                               float(desc.height->heightBound()), desc.height->addressing};
         if (height->addressing == Addressing::faces) addFaceHeights(*desc.height, surface, *this);
     }
-    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
+    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
     if (desc.bump != nullptr) pictures.slopes = uploadSlopes(device, *desc.bump);
     if (desc.normalMap != nullptr) pictures.normalMap = uploadNormals(device, *desc.normalMap);
 
@@ -222,7 +222,7 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     texCoords =
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
     indices = uploadIndices(device, mesh.indices);
-    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
+    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
     tables.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
     if (desc.function != nullptr) setFunction(desc, *this);
     uploadDetail(device, desc, *this);

@@ -49,6 +49,7 @@ struct EdgeHeights {
 struct AlbedoMap {
     Texture texture;
     Wrap wrap = Wrap::repeat;
+    PictureTiles tiles;
 };
 
 /// A normal map with its mip levels.
@@ -56,6 +57,7 @@ struct GpuNormalMap {
     Texture texture; ///< unit normals as NormalMap holds them, and means of them
     NormalSpace space = NormalSpace::tangent;
     Wrap wrap = Wrap::repeat;
+    PictureTiles tiles;
 };
 
 /// The slopes of a height map that bend normals per fragment.
@@ -64,6 +66,7 @@ struct GpuSlopeMap {
     float unit = 1;  ///< SlopeMap::unit
     Wrap wrap = Wrap::repeat;
     std::uint64_t byteCount = 0; ///< of its texels, mip levels included
+    PictureTiles tiles;
 };
 
 /// What fragments read of a model, as far as there is any of it.
@@ -77,6 +80,11 @@ struct ModelPictures {
         return slopes || (normalMap && normalMap->space == NormalSpace::tangent);
     }
     [[nodiscard]] bool needTexCoords() const { return slopes || normalMap; }
+    /// Whether one of them covers other unit squares of texture coordinates than the first one.
+    [[nodiscard]] bool haveTiles() const {
+        return (albedo && !albedo->tiles.isOne()) || (slopes && !slopes->tiles.isOne()) ||
+               (normalMap && !normalMap->tiles.isOne());
+    }
 };
 
 // --- surfaces -----------------------------------------------------------------------------------------------------
@@ -99,6 +107,7 @@ struct SurfaceModelDesc {
     const HeightMap* bump = nullptr;           ///< heights whose slopes normals show, as far as `height` does not
     const NormalMap* normalMap = nullptr;      ///< of object space only where the cage never moves
     Wrap albedoWrap = Wrap::repeat;
+    PictureTiles albedoTiles;
     const Image* albedo = nullptr; ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
@@ -176,6 +185,7 @@ struct MeshModelDesc {
     std::span<const vec3> restPositions;       ///< what a function is given, per vertex; empty: those of the mesh
     const Tangents* tangents = nullptr;        ///< of the mesh
     Wrap albedoWrap = Wrap::repeat;
+    PictureTiles albedoTiles;
     const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
 };
 

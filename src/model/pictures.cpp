@@ -104,6 +104,13 @@ TexelBuffer uploadHeights(Device& device, MapWords map, MapFormat format) {
 }
 
 GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
+    RELIEF_CHECK(map.addressing != Addressing::faces);
+    if (map.addressing == Addressing::tiles) {
+        const JoinedMap joined = joinTiles(map);
+        GpuSlopeMap slopes = uploadSlopes(device, joined.map);
+        slopes.tiles = joined.tiles;
+        return slopes;
+    }
     const SlopeMap slopes = computeSlopes(map);
     return {uploadTexture(device,
                           {.name = "slopes",
@@ -112,7 +119,7 @@ GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
                            .mipCount = slopes.levelCount,
                            .format = VK_FORMAT_R16G16_SFLOAT},
                           std::as_bytes(std::span(slopes.texels)), 4),
-            slopes.unit, map.wrap, slopes.texels.size() * sizeof(slopes.texels[0])};
+            slopes.unit, map.wrap, slopes.texels.size() * sizeof(slopes.texels[0]), {}};
 }
 
 GpuNormalMap uploadNormals(Device& device, const NormalMap& map) {
@@ -125,7 +132,7 @@ GpuNormalMap uploadNormals(Device& device, const NormalMap& map) {
                            .mipCount = levels,
                            .format = VK_FORMAT_R16G16B16A16_SFLOAT},
                           std::as_bytes(std::span(texels)), 8),
-            map.space, map.wrap};
+            map.space, map.wrap, map.tiles};
 }
 
 Texture uploadAlbedo(Device& device, const Image& image) {

@@ -156,7 +156,7 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
     LoadedScene scene{.object = load(object, state, warn)};
     warnOfUnusedTags(scene.object, object, warn);
     if (!object.material.albedo.empty()) {
-        scene.object.albedo = loadAlbedo(object.material.albedo, warn);
+        loadAlbedo(scene.object, object.material.albedo, warn);
         // A height map has been named in such a warning already.
         if (object.height.path.empty()) warnOutsideMap(object, scene.object.cage, object.material.albedo, warn);
     }

@@ -19,7 +19,19 @@ FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage);
 
 /// Reads a color map. Throws Failure::input for fewer than 3 channels and for texels that are not finite; warns where
 /// the file has several layers and where values are clamped to 0..1.
-Image loadAlbedo(const std::string& path, const Warn& warn);
+Image loadColors(const std::string& path, const Warn& warn);
+/// The same, or all files of a set of tiles.
+void loadAlbedo(LoadedObject& object, const std::string& path, const Warn& warn);
+
+/// The pictures of a set of tiles in one, over all unit squares that the set spans.
+struct JoinedPictures {
+    Image image; ///< 3 channels
+    PictureTiles tiles;
+};
+/// Reads them on all cores. Tiles of other sizes become as large as the largest, or as the picture allows. Squares
+/// without a tile have one color: `empty`, or where there is none the mean of all tiles.
+/// Throws as listTiles and loadColors do; warns of tiles that are made smaller.
+JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& empty, const Warn& warn);
 
 /// Reads the normal map of an object.
 /// Throws Failure::usage for one of object space on a cage that moves, and as loadNormalMap does.

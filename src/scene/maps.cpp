@@ -22,7 +22,7 @@ std::pair<vec2, vec2> texCoordRange(const Cage& cage) {
 
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn) {
     constexpr float kRounding = 1e-4f; // of programs that write texture coordinates with a few digits
-    if (desc.height.wrap || !cage.hasTexCoords()) return;
+    if (desc.height.wrap || !cage.hasTexCoords() || findTilePattern(map)) return;
     const auto [lower, upper] = texCoordRange(cage);
     const bool isInside =
         lower.x >= -kRounding && lower.y >= -kRounding && upper.x <= 1 + kRounding && upper.y <= 1 + kRounding;
@@ -166,10 +166,26 @@ NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const 
              map.path);
     NormalOptions options{.space = map.space, .y = map.y, .limits = {}};
     options.wrap = desc.height.wrap.value_or(options.wrap);
-    return loadNormalMap(map.path, options, warn);
+    if (!findTilePattern(map.path)) return loadNormalMap(map.path, options, warn);
+    JoinedPictures joined = joinPictures(map.path, {0.5f, 0.5f, 1.0f}, warn);
+    options.wrap = Wrap::clamp;
+    NormalMap normals = makeNormalMap(joined.image, map.path, options, warn);
+    normals.tiles = joined.tiles;
+    return normals;
 }
 
-Image loadAlbedo(const std::string& path, const Warn& warn) {
+void loadAlbedo(LoadedObject& object, const std::string& path, const Warn& warn) {
+    if (!findTilePattern(path)) {
+        object.albedo = loadColors(path, warn);
+        return;
+    }
+    JoinedPictures joined = joinPictures(path, {}, warn);
+    object.albedo = std::move(joined.image);
+    object.albedoTiles = joined.tiles;
+    object.wrap = Wrap::clamp;
+}
+
+Image loadColors(const std::string& path, const Warn& warn) {
     // Which channels are the colors.
     const ImageInfo info = readImageInfo(path);
     if (info.channels < 3)

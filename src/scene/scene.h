@@ -108,6 +108,7 @@ struct LoadedObject {
     double time = 0;                         ///< seconds, of the pose
     std::optional<Image> albedo;
     Wrap wrap = Wrap::repeat;         ///< of the albedo
+    PictureTiles albedoTiles;
     std::optional<vec3> textureColor; ///< linear, multiplies an albedo that the cage's own file names
     std::optional<NormalMap> normalMap;
     bool needsTangents = false; ///< normals are bent or turned along texture coordinates, by heights or a normal map
