@@ -187,8 +187,8 @@ HeightMap cutIntoTiles(const HeightMap& map) {
     return makeTileSet(tiles, places);
 }
 
-/// Compares the three ways to look heights up, at a rate that divides the nodes of a map per face: the same heights, and
-/// tiles of as many bytes as the one map.
+/// Compares the three ways to look heights up, at a rate that divides the nodes of a map per face: the same heights,
+/// and tiles of as many bytes as the one map.
 int benchMaps() {
     constexpr int kLog = 5; // of the segments of a face, and of the rate
     TestSurface test;
@@ -198,7 +198,8 @@ int benchMaps() {
     }
     Cage tiled = test.cage;
     for (vec2& st : tiled.texCoords) st *= 2.0f;
-    const Surface surface = buildSurface(test.cage, {.isolation = 3}), tiledSurface = buildSurface(tiled, {.isolation = 3});
+    const Surface surface = buildSurface(test.cage, {.isolation = 3}),
+                  tiledSurface = buildSurface(tiled, {.isolation = 3});
     const std::vector<ivec2> segments(surface.faces.size(), ivec2(kLog));
     const HeightMap faces = makeFaceMap(surface, segments, [&](int face, const dvec2& uv) {
         return sampleHeight(test.map, test.reference.texture(face, uv).st).h;

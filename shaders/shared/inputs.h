@@ -101,15 +101,15 @@ struct Targets {
     RELIEF_ADDRESS(Pairs) dicedTexCoords;
     RELIEF_ADDRESS(Vectors) dicedTexGradients; // as kBindMeshTexGradients
     RELIEF_ADDRESS(Words) dicedIndices;
-    RELIEF_ADDRESS(Floats) layers;        // layers.comp: kLayerChannels floats per pixel
-    RELIEF_ADDRESS(Materials) materials;  // light.comp with kHasInstances: one per instance
-    RELIEF_ADDRESS(WordQuads) screen;     // as kBindScreen
-    RELIEF_ADDRESS(WordPairs) samples;    // as kBindSamples
+    RELIEF_ADDRESS(Floats) layers;          // layers.comp: kLayerChannels floats per pixel
+    RELIEF_ADDRESS(Materials) materials;    // light.comp with kHasInstances: one per instance
+    RELIEF_ADDRESS(WordQuads) screen;       // as kBindScreen
+    RELIEF_ADDRESS(WordPairs) samples;      // as kBindSamples
     RELIEF_ADDRESS(WordPairs) sampleColors; // as kBindSampleColors
-    RELIEF_ADDRESS(Words) sampleInstances; // as kBindSampleInstances
-    RELIEF_ADDRESS(Words) shadow;         // as kBindShadowCodes
-    RELIEF_ADDRESS(Words) crossings;      // kPassCracks: front faces less back faces per pixel
-    RELIEF_ADDRESS(Words) largeTriangles; // kLarge...
+    RELIEF_ADDRESS(Words) sampleInstances;  // as kBindSampleInstances
+    RELIEF_ADDRESS(Words) shadow;           // as kBindShadowCodes
+    RELIEF_ADDRESS(Words) crossings;        // kPassCracks: front faces less back faces per pixel
+    RELIEF_ADDRESS(Words) largeTriangles;   // kLarge...
 };
 
 struct PassInputs {

@@ -138,11 +138,12 @@ Run addMap(CLI::App& app) {
     addHeightValues(app, args->object.height);
     app.add_flag("--json", args->isJson, "print the result as JSON on stdout")->group("output");
     app.add_flag("-q,--quiet", args->isQuiet, "print no warnings and no summary")->group("output");
-    app.footer("A map per face needs no texture coordinates: --height takes it as any map. It fits the cage that it was\n"
-               "made for alone.\n"
-               "examples:\n"
-               "  relief map cage.obj heights.exr -o faces.exr\n"
-               "  relief map cage.obj faces.exr -o heights.exr --size 4096,4096");
+    app.footer(
+        "A map per face needs no texture coordinates: --height takes it as any map. It fits the cage that it was\n"
+        "made for alone.\n"
+        "examples:\n"
+        "  relief map cage.obj heights.exr -o faces.exr\n"
+        "  relief map cage.obj faces.exr -o heights.exr --size 4096,4096");
     return [args] { return convertMap(*args); };
 }
 

@@ -140,8 +140,8 @@ json describeTiles(const std::string& path) {
                          {"sample", info.sample},
                          {"channels", info.channelNames}});
     }
-    return {{"file", path}, {"kind", "set of tiles"}, {"tile_count", tiles.size()}, {"tiles", tiles},
-            {"map_bytes", bytes}};
+    return {
+        {"file", path}, {"kind", "set of tiles"}, {"tile_count", tiles.size()}, {"tiles", tiles}, {"map_bytes", bytes}};
 }
 
 /// What the header of a map per face says.

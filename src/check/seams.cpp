@@ -137,8 +137,7 @@ SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference
         std::vector<double> heights;
         heights.reserve(points.size());
         for (const auto& [face, uv] : points)
-            heights.push_back(
-                sampleHeight(map, {.face = face, .uv = uv, .st = reference.texture(face, uv).st}).h);
+            heights.push_back(sampleHeight(map, {.face = face, .uv = uv, .st = reference.texture(face, uv).st}).h);
         return heights;
     };
     const auto texels = [&](const dvec2& st) {

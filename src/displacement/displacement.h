@@ -159,11 +159,11 @@ struct HeightOptions {
 };
 
 /// Reads one channel of an image as raw data; of all files of a set where `path` is a TilePattern; or a map per face,
-/// which fitToFaces() fits to its surface, and encode() stores, afterwards. Voids (HeightCensus) are filled smoothly from the heights around them.
-/// Warns of 8-bit sources (stairs), of unsigned integer sources without a scale, of voids, and of a channel that is not
-/// named where the file has layers.
-/// Throws as readImage does, and Failure::input for a missing channel, a texel that is not finite, a map of voids only
-/// and a set whose files differ in their channels, and as listTiles; Failure::device for a set larger than memory.
+/// which fitToFaces() fits to its surface, and encode() stores, afterwards. Voids (HeightCensus) are filled smoothly
+/// from the heights around them. Warns of 8-bit sources (stairs), of unsigned integer sources without a scale, of
+/// voids, and of a channel that is not named where the file has layers. Throws as readImage does, and Failure::input
+/// for a missing channel, a texel that is not finite, a map of voids only and a set whose files differ in their
+/// channels, and as listTiles; Failure::device for a set larger than memory.
 EncodedMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn = warnOnStderr);
 
 /// Whether a file holds a map per face: saveFaceMap() has written it.

@@ -71,8 +71,7 @@ FaceMapInfo readFaceMapInfo(const ImageInfo& info, const std::string& name) {
     const bool isBad = digits.empty() || digits.size() % 2 != 0 || std::ranges::any_of(result.segments, [](ivec2 s) {
                            return std::min(s.x, s.y) < 0 || std::max(s.x, s.y) > kMostSegments;
                        });
-    const auto [end, error] =
-        std::from_chars(topology.data(), topology.data() + topology.size(), result.topology, 16);
+    const auto [end, error] = std::from_chars(topology.data(), topology.data() + topology.size(), result.topology, 16);
     if (isBad || error != std::errc() || end != topology.data() + topology.size())
         fail(Failure::input, "{}: its header does not say how large the tiles of its faces are; write it again", name);
     if (info.channels != 1)
@@ -88,8 +87,9 @@ EncodedMap loadFaceMap(const std::string& path, const HeightOptions& options, co
     const FaceMapInfo faces = readFaceMapInfo(info, path);
     const Image image = readImage(path, 0, options.limits);
     if (const std::optional<BadTexel> bad = findNotFinite(image))
-        fail(Failure::input, "{}: the texel in column {}, row {} (from 0, top left) is {}; fill the map's gaps with numbers",
-             path, bad->x, bad->y, bad->value);
+        fail(Failure::input,
+             "{}: the texel in column {}, row {} (from 0, top left) is {}; fill the map's gaps with numbers", path,
+             bad->x, bad->y, bad->value);
     HeightMap map{.mid = options.mid.value_or(0.0),
                   .scale = options.scale.value_or(1.0),
                   .wrap = Wrap::clamp,
@@ -131,8 +131,8 @@ void saveFaceMap(const std::string& path, const HeightMap& map) {
         const std::size_t stride = std::size_t(tile.size.x) + 2 * kFaceApron;
         for (int j = 0; j < tile.size.y; ++j)
             for (int i = 0; i < tile.size.x; ++i) {
-                const float node = map.texels[tile.first + std::size_t(j + kFaceApron) * stride +
-                                              std::size_t(i + kFaceApron)];
+                const float node =
+                    map.texels[tile.first + std::size_t(j + kFaceApron) * stride + std::size_t(i + kFaceApron)];
                 *image.at(packing.corners[f].x + i, packing.corners[f].y + j) =
                     float(map.scale * (double(node) - map.mid));
             }

@@ -134,10 +134,11 @@ void TileLevels::shareSide(std::size_t tile, std::uint32_t level, std::uint32_t 
         for (int node = 1; node < count; ++node) {
             const double x = double(node) / count;
             if (x < std::min(link.ownStart, link.ownEnd) || x > std::max(link.ownStart, link.ownEnd)) continue;
-            const dvec2 at = pointInside(link.side, link.start + (x - link.ownStart) * share, 0) *
-                             dvec2(other.size - 1);
+            const dvec2 at =
+                pointInside(link.side, link.start + (x - link.ownStart) * share, 0) * dvec2(other.size - 1);
             const ivec2 to = nodeOfSide(side, last, node, 0);
-            own.own[std::size_t(to.y) * std::size_t(own.size.x) + std::size_t(to.x)] = float(other.bilinear(at.x, at.y));
+            own.own[std::size_t(to.y) * std::size_t(own.size.x) + std::size_t(to.x)] =
+                float(other.bilinear(at.x, at.y));
         }
     }
 }

@@ -20,8 +20,8 @@ enum class Addressing : std::uint32_t {
     faces = kMapOfFaces,     ///< a tile per face over its (u,v), which needs no texture coordinates
 };
 
-/// A tile of a map. Rows of a unit square go down, from t = 1; those of a face go up, from v = 0. Around its texels lies
-/// an apron: what lookups meet beyond its border.
+/// A tile of a map. Rows of a unit square go down, from t = 1; those of a face go up, from v = 0. Around its texels
+/// lies an apron: what lookups meet beyond its border.
 struct MapTile {
     ivec2 place{0};        ///< lowest (s,t) of the unit square; of a face its number and 0
     ivec2 size{0};         ///< texels; of a face nodes along u and v, 2^segments + 1
@@ -79,12 +79,12 @@ const MapTile* findTile(std::span<const MapTile> tiles, const dvec2& st);
 
 /// A stretch of a side of a face, and the side of another face that it lies on.
 struct FaceLink {
-    std::uint32_t face = kNoPatch;   ///< the other one; kNoPatch: there is none
-    std::uint32_t side = 0;          ///< of the other one
-    float ownStart = 0, ownEnd = 0;  ///< along the own side
-    float start = 0, end = 0;        ///< along the other side
-    bool isOwner = false;            ///< heights along the edge are those of the other face
-    bool continues = false;          ///< it is the only other face there: heights go on in it
+    std::uint32_t face = kNoPatch;  ///< the other one; kNoPatch: there is none
+    std::uint32_t side = 0;         ///< of the other one
+    float ownStart = 0, ownEnd = 0; ///< along the own side
+    float start = 0, end = 0;       ///< along the other side
+    bool isOwner = false;           ///< heights along the edge are those of the other face
+    bool continues = false;         ///< it is the only other face there: heights go on in it
 };
 
 /// Who shares edges and corners with whom, for maps whose edges and corners belong to their owners.

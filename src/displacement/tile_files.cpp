@@ -78,8 +78,7 @@ std::optional<TilePattern> findTilePattern(const std::string& path) {
 }
 
 std::string nameTile(const TilePattern& pattern, const ivec2& place) {
-    if (pattern.numbers == TilePattern::Numbers::udim)
-        return std::to_string(kFirstUdim + place.x + 10 * place.y);
+    if (pattern.numbers == TilePattern::Numbers::udim) return std::to_string(kFirstUdim + place.x + 10 * place.y);
     const int first = pattern.numbers == TilePattern::Numbers::fromOne ? 1 : 0;
     return fmt::format("u{}_v{}", place.x + first, place.y + first);
 }
@@ -90,7 +89,8 @@ std::vector<TileFile> listTiles(const std::string& path) {
     std::error_code error;
     if (fs::exists(path, error))
         fail(Failure::input,
-             "{}: a file has this name, which stands for the files of a set of tiles; give the file another name", path);
+             "{}: a file has this name, which stands for the files of a set of tiles; give the file another name",
+             path);
     const std::size_t slash = path.find_last_of('/');
     const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
     const std::string before = pattern->before.substr(slash == std::string::npos ? 0 : slash + 1);

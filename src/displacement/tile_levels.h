@@ -26,8 +26,8 @@ private:
     /// A level without its apron.
     struct Grid {
         ivec2 size{0};
-        int stride = 0;               ///< from row to row
-        std::vector<float> own;       ///< its texels, or empty where they are the set's
+        int stride = 0;         ///< from row to row
+        std::vector<float> own; ///< its texels, or empty where they are the set's
         const float* texels = nullptr;
 
         explicit Grid(const ivec2& gridSize, std::vector<float> values)

@@ -44,8 +44,8 @@ void checkChannels(const std::vector<TileFile>& files, const std::vector<ImageIn
 }
 
 /// One line for the set of what is true of several files.
-void warnAboutSet(const std::vector<TileFile>& files, const std::vector<ImageInfo>& infos,
-                  const HeightOptions& options, const Warn& warn) {
+void warnAboutSet(const std::vector<TileFile>& files, const std::vector<ImageInfo>& infos, const HeightOptions& options,
+                  const Warn& warn) {
     std::set<std::string> said; // what follows the file's name
     for (std::size_t i = 0; i < files.size(); ++i)
         warnAbout(infos[i], files[i].path, options, [&](const std::string& line) {

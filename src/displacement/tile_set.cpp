@@ -116,9 +116,8 @@ HeightMap makeTileSet(std::span<const HeightMap> maps, std::span<const ivec2> pl
     HeightMap set{.mid = maps[0].mid, .scale = maps[0].scale, .wrap = Wrap::clamp, .addressing = Addressing::tiles};
     std::vector<std::size_t> order(maps.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-        return isTileBefore({.place = places[a]}, places[b]);
-    });
+    std::ranges::sort(order,
+                      [&](std::size_t a, std::size_t b) { return isTileBefore({.place = places[a]}, places[b]); });
     for (const std::size_t i : order) {
         RELIEF_CHECK(maps[i].mid == set.mid);
         RELIEF_CHECK(maps[i].scale == set.scale);
@@ -135,9 +134,8 @@ HeightMap makeFaceMap(const Surface& surface, std::span<const ivec2> segments,
     RELIEF_CHECK(segments.size() == surface.faces.size());
     HeightMap map{.wrap = Wrap::clamp, .addressing = Addressing::faces};
     for (std::size_t f = 0; f < segments.size(); ++f)
-        map.tiles.push_back({.place = {int(f), 0},
-                             .size = ivec2(1 << segments[f].x, 1 << segments[f].y) + 1,
-                             .segments = segments[f]});
+        map.tiles.push_back(
+            {.place = {int(f), 0}, .size = ivec2(1 << segments[f].x, 1 << segments[f].y) + 1, .segments = segments[f]});
     allocateTiles(map);
     for (std::size_t f = 0; f < segments.size(); ++f) {
         if (surface.faces[f].root == kNoPatch) continue;

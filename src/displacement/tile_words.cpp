@@ -77,9 +77,9 @@ std::uint64_t mapBytes(MapFormat format, const HeightMap& map) {
 void storeTiles(MapWords& words, const HeightMap& set, const MapEncoding& encoding) {
     // Where everything lies is known first, so that tiles are stored at once.
     words.words.resize(mapBytes(encoding.format, set) / 4, 0);
-    std::vector<std::uint32_t> firsts;            // word of level 0 of each tile
-    std::vector<std::size_t> firstLevels;         // in words.firsts, of each tile
-    std::vector<std::size_t> firstBlocks{0};      // byte of encoding.blocks, of each tile
+    std::vector<std::uint32_t> firsts;       // word of level 0 of each tile
+    std::vector<std::size_t> firstLevels;    // in words.firsts, of each tile
+    std::vector<std::size_t> firstBlocks{0}; // byte of encoding.blocks, of each tile
     std::uint64_t word = 2 * std::uint64_t(countEntries(set));
     for (const MapTile& tile : set.tiles) {
         firstLevels.push_back(words.firsts.size());
@@ -105,8 +105,7 @@ void storeTiles(MapWords& words, const HeightMap& set, const MapEncoding& encodi
             const bool hasBlocks = level == 0 && encoding.format == MapFormat::bc4;
             if (hasBlocks)
                 storeBlocks(to, encoding, texels,
-                            std::span(encoding.blocks)
-                                .subspan(firstBlocks[t], firstBlocks[t + 1] - firstBlocks[t]));
+                            std::span(encoding.blocks).subspan(firstBlocks[t], firstBlocks[t + 1] - firstBlocks[t]));
             else
                 roundOff = std::max(roundOff, storeLevel(to, encoding, texels));
         }

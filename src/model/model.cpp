@@ -17,8 +17,8 @@ std::span<const std::byte> bytesOf(const std::vector<T>& array) {
 void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) {
     const std::uint64_t bytes = mapBytes(format, map), most = largestTable(device, 8);
     if (bytes <= most) return;
-    const std::string size = map.tiles.empty() ? fmt::format("{} x {}", map.width, map.height)
-                                               : fmt::format("{} tiles", map.tiles.size());
+    const std::string size =
+        map.tiles.empty() ? fmt::format("{} x {}", map.width, map.height) : fmt::format("{} tiles", map.tiles.size());
     fail(Failure::device, "a height map of {} takes {} with its mips; {} reads {}", size, humanBytes(bytes),
          device.traits().name, humanBytes(most));
 }
@@ -123,7 +123,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
                               float(desc.height->heightBound()), desc.height->addressing};
         if (height->addressing == Addressing::faces) addFaceHeights(*desc.height, surface, *this);
     }
-    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
+    if (desc.albedo != nullptr)
+        pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
     if (desc.bump != nullptr) pictures.slopes = uploadSlopes(device, *desc.bump);
     if (desc.normalMap != nullptr) pictures.normalMap = uploadNormals(device, *desc.normalMap);
 
@@ -222,7 +223,8 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     texCoords =
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
     indices = uploadIndices(device, mesh.indices);
-    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
+    if (desc.albedo != nullptr)
+        pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
     tables.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
     if (desc.function != nullptr) setFunction(desc, *this);
     uploadDetail(device, desc, *this);

@@ -119,7 +119,10 @@ GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
                            .mipCount = slopes.levelCount,
                            .format = VK_FORMAT_R16G16_SFLOAT},
                           std::as_bytes(std::span(slopes.texels)), 4),
-            slopes.unit, map.wrap, slopes.texels.size() * sizeof(slopes.texels[0]), {}};
+            slopes.unit,
+            map.wrap,
+            slopes.texels.size() * sizeof(slopes.texels[0]),
+            {}};
 }
 
 GpuNormalMap uploadNormals(Device& device, const NormalMap& map) {

@@ -69,7 +69,7 @@ Range rangeOfLevel(const StoredLevel& level, const HeightMap& map, double roundO
     for (int y = 0; y <= last.y; ++y)
         for (int x = 0; x <= last.x; ++x) {
             // Nodes of the apron count for slopes alone, its corners not at all.
-            const bool isRow = y > 0 && y < last.y, isColumn = x > 0 && x < last.x;
+            const bool isRow = y > 0 && y<last.y, isColumn = x> 0 && x < last.x;
             if (isRow && isColumn) lowest = std::min(lowest, at(x, y)), highest = std::max(highest, at(x, y));
             if (isRow && x < last.x) step.x = std::max(step.x, std::abs(at(x + 1, y) - at(x, y)));
             if (isColumn && y < last.y) step.y = std::max(step.y, std::abs(at(x, y + 1) - at(x, y)));

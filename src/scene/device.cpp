@@ -13,7 +13,7 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
                                 .bump = object.bumpMap(),
                                 .normalMap = object.normalMap ? &*object.normalMap : nullptr,
                                 .albedoWrap = object.wrap,
-                       .albedoTiles = object.albedoTiles,
+                                .albedoTiles = object.albedoTiles,
                                 .albedoTiles = object.albedoTiles,
                                 .albedo = object.albedo ? &*object.albedo : nullptr});
     model.setTime(object.time, object.time);

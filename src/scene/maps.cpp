@@ -89,8 +89,7 @@ void warnOfMissingTiles(const Cage& cage, const HeightMap& set, const std::strin
     if (missing.empty()) return;
     constexpr std::size_t kMostNames = 8;
     std::string names;
-    for (std::size_t i = 0; i < std::min(missing.size(), kMostNames); ++i)
-        names += (i > 0 ? ", " : "") + missing[i];
+    for (std::size_t i = 0; i < std::min(missing.size(), kMostNames); ++i) names += (i > 0 ? ", " : "") + missing[i];
     if (missing.size() > kMostNames) names += fmt::format(" and {} more", missing.size() - kMostNames);
     warn(fmt::format("{}: the set has no tile {}, which texture coordinates lie in: nothing is displaced there", path,
                      names));

@@ -19,7 +19,8 @@ vec3 resampledAt(const Image& image, const dvec2& center, const dvec2& footprint
             const dvec2 at = center + footprint * ((dvec2(i, j) + 0.5) / dvec2(counts) - 0.5) - 0.5;
             const dvec2 whole = glm::floor(at), f = at - whole;
             const auto texel = [&](double x, double y) {
-                const float* c = image.at(std::clamp(int(x), 0, image.width - 1), std::clamp(int(y), 0, image.height - 1));
+                const float* c =
+                    image.at(std::clamp(int(x), 0, image.width - 1), std::clamp(int(y), 0, image.height - 1));
                 return dvec3(c[0], c[1], c[2]);
             };
             sum += glm::mix(glm::mix(texel(whole.x, whole.y), texel(whole.x + 1, whole.y), f.x),
@@ -74,9 +75,7 @@ JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& 
     image.texels.assign(std::size_t(image.width) * std::size_t(image.height) * 3, 0.0f);
 
     // Tiles at once; rows go down.
-    const auto cornerOf = [&](const ivec2& place) {
-        return ivec2(place.x - lowest.x, highest.y - place.y) * size;
-    };
+    const auto cornerOf = [&](const ivec2& place) { return ivec2(place.x - lowest.x, highest.y - place.y) * size; };
     std::vector<dvec3> sums(files.size());
     std::vector<std::vector<std::string>> warnings(files.size());
     forEachAtOnce(files.size(), [&](std::size_t i) {

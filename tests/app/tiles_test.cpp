@@ -47,8 +47,8 @@ TEST_F(TileVerbs, drawSetsAndMapsPerFace) {
 
 TEST_F(TileVerbs, sayWhichTileIsMissing) {
     write("h.1001.exr", 0.1f);
-    const Outcome drawn = relief({"render", plane(), "--height", folder / "h.<UDIM>.exr", "-o", folder / "p.png"},
-                                 "--size 16,16");
+    const Outcome drawn =
+        relief({"render", plane(), "--height", folder / "h.<UDIM>.exr", "-o", folder / "p.png"}, "--size 16,16");
     EXPECT_EQ(drawn.exitCode, 0) << drawn.err;
     EXPECT_TRUE(contains(drawn.err, "no tile 1002")) << drawn.err;
 }

@@ -56,7 +56,8 @@ TEST(TileNames, thatAreWrongAreRefused) {
     for (const char* name : {"low.1000.exr", "two.1001.exr", "two.01001.exr", "zero.u0_v1.exr", "own.<UDIM>.exr"})
         putFile(folder / name, "");
     expectFailure(Failure::input, {"low.1000.exr", "1001"}, [&] { listTiles(folder / "low.<UDIM>.exr"); });
-    expectFailure(Failure::input, {"two.01001.exr", "two.1001.exr", "both"}, [&] { listTiles(folder / "two.<UDIM>.exr"); });
+    expectFailure(Failure::input, {"two.01001.exr", "two.1001.exr", "both"},
+                  [&] { listTiles(folder / "two.<UDIM>.exr"); });
     expectFailure(Failure::input, {"u0_v1", "from 1"}, [&] { listTiles(folder / "zero.<UVTILE>.exr"); });
     expectFailure(Failure::input, {"own.<UDIM>.exr", "another name"}, [&] { listTiles(folder / "own.<UDIM>.exr"); });
     expectFailure(Failure::file, {"none.<UDIM>.exr", "none.1001.exr"}, [&] { listTiles(folder / "none.<UDIM>.exr"); });
@@ -166,8 +167,7 @@ TEST(FaceMaps, haveTheSlopesOfATextureAcrossEdges) {
                                  : link.side == 1 ? dvec2(1 - 1.0 / n, x)
                                  : link.side == 0 ? dvec2(x, 1.0 / n)
                                                   : dvec2(1 - x, 1 - 1.0 / n);
-            const double expected =
-                (height(int(link.face), beyond) - height(int(f), dvec2(1 - 1.0 / n, uv.y))) * n / 2;
+            const double expected = (height(int(link.face), beyond) - height(int(f), dvec2(1 - 1.0 / n, uv.y))) * n / 2;
             EXPECT_NEAR(sample.hs, expected, 1e-5);
             ++count;
         }
@@ -188,17 +188,18 @@ TEST(TileWords, holdEveryTileWithItsApron) {
     const std::uint32_t* first = entry(1, 1);
     EXPECT_EQ(first[1], 8u | 4u << 16);
     const auto texel = [&](std::uint32_t word, int width, int x, int y) {
-        return std::bit_cast<float>(words.words[word + std::uint32_t((y + kTileApron) * (width + 2 * kTileApron) +
-                                                                     x + kTileApron)]);
+        return std::bit_cast<float>(
+            words.words[word + std::uint32_t((y + kTileApron) * (width + 2 * kTileApron) + x + kTileApron)]);
     };
     const std::uint32_t right = entry(2, 1)[0];
     for (int y = 0; y < 4; ++y)
         for (int x = 0; x < 2; ++x) EXPECT_EQ(texel(first[0], 8, 8 + x, y), texel(right, 8, x, y));
     // Level 1 begins where the word before level 0 says, and holds means of four.
     const std::uint32_t level = words.words[first[0] - 1];
-    EXPECT_NEAR(texel(level, 4, 0, 0),
-                (texel(first[0], 8, 0, 0) + texel(first[0], 8, 1, 0) + texel(first[0], 8, 0, 1) +
-                 texel(first[0], 8, 1, 1)) / 4, 1e-6);
+    EXPECT_NEAR(
+        texel(level, 4, 0, 0),
+        (texel(first[0], 8, 0, 0) + texel(first[0], 8, 1, 0) + texel(first[0], 8, 0, 1) + texel(first[0], 8, 1, 1)) / 4,
+        1e-6);
 }
 
 } // namespace

@@ -51,9 +51,8 @@ void expectTight(const SurfaceModel& model, std::uint32_t& turn, const std::stri
             const Watertightness w =
                 checkWatertight(capturer().capture(model, {.path = path}, rates), boundarySegments(model, rates));
             EXPECT_GT(w.triangles, 0u);
-            EXPECT_TRUE(w.isWatertight())
-                << fmt::format("{}, {}, {}: {} open edges, {} ulp", words, nameOf(kind), kPathNames[int(path)],
-                               w.openEdges, w.largestGapUlps);
+            EXPECT_TRUE(w.isWatertight()) << fmt::format("{}, {}, {}: {} open edges, {} ulp", words, nameOf(kind),
+                                                         kPathNames[int(path)], w.openEdges, w.largestGapUlps);
         }
     }
 }
