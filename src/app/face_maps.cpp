@@ -134,7 +134,7 @@ Run addMap(CLI::App& app) {
     listIn("map", "W,H",
            addVector<ivec2>(app, "--size", args->size, "over texture coordinates: texels (default: 1024,1024)")
                ->check(numberIn(1, 16384)));
-    addSubdivisionOptions(app, args->object);
+    addSurface(app, args->object);
     addHeightValues(app, args->object.height);
     app.add_flag("--json", args->isJson, "print the result as JSON on stdout")->group("output");
     app.add_flag("-q,--quiet", args->isQuiet, "print no warnings and no summary")->group("output");

@@ -89,7 +89,7 @@ void addObject(CLI::App& app, ObjectDesc& object) {
     addMotion(app, object.motion);
 }
 
-void addSubdivisionOptions(CLI::App& app, ObjectDesc& object) {
+void addSurface(CLI::App& app, ObjectDesc& object) {
     listIn("surface", "SCHEME",
            addEnum(app, "--scheme", object.subdivision, kSubdivisions,
                    "how the cage is subdivided (default: none where all faces are triangles, else catmark)"));
@@ -103,7 +103,7 @@ void addSubdivisionOptions(CLI::App& app, ObjectDesc& object) {
 }
 
 void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
-    addSubdivisionOptions(app, object);
+    addSurface(app, object);
     addHeights(app, object.height);
 }
 

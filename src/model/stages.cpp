@@ -107,6 +107,9 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
+    values[kIdShading] = shading;
+    values[kIdAddsLight] = addsLight;
+    values[kIdHasOcclusion] = hasOcclusion;
     values[kIdMapAddressing] = std::uint32_t(addressing);
     values[kIdReadsNodes] = readsNodes;
     values[kIdHasPictureTiles] = hasPictureTiles;
