@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostSegments = 4096;
 
 /// relief map: a map per face of one over texture coordinates, and back.
-struct MapArgs {
+struct ConversionArgs {
     ObjectDesc object;
     std::string target;
     std::optional<int> segments;
@@ -76,7 +76,7 @@ Image makePicture(const LoadedObject& object, const std::string& cage, const ive
     return image;
 }
 
-int convertMap(const MapArgs& args) {
+int convertMap(const ConversionArgs& args) {
     if (lowerExtension(args.target) != ".exr")
         fail(Failure::usage, "{}: the map is written as .exr: heights are floats in cage units", args.target);
     if (args.segments && !std::has_single_bit(unsigned(*args.segments)))
@@ -118,7 +118,7 @@ int convertMap(const MapArgs& args) {
 } // namespace
 
 Run addMap(CLI::App& app) {
-    auto args = std::make_shared<MapArgs>();
+    auto args = std::make_shared<ConversionArgs>();
     app.add_option("cage", args->object.cage, "control cage: .obj .gltf .glb")->required()->option_text("CAGE");
     app.add_option("map", args->object.height.path,
                    "height map over texture coordinates, set of tiles, or map per face of this cage")

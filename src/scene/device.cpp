@@ -14,7 +14,6 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
                                 .normalMap = object.normalMap ? &*object.normalMap : nullptr,
                                 .albedoWrap = object.wrap,
                                 .albedoTiles = object.albedoTiles,
-                                .albedoTiles = object.albedoTiles,
                                 .albedo = object.albedo ? &*object.albedo : nullptr});
     model.setTime(object.time, object.time);
     return model;

@@ -166,7 +166,7 @@ NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const 
     NormalOptions options{.space = map.space, .y = map.y, .limits = {}};
     options.wrap = desc.height.wrap.value_or(options.wrap);
     if (!findTilePattern(map.path)) return loadNormalMap(map.path, options, warn);
-    JoinedPictures joined = joinPictures(map.path, {0.5f, 0.5f, 1.0f}, warn);
+    JoinedPictures joined = joinPictures(map.path, vec3(0.5f, 0.5f, 1.0f), warn);
     options.wrap = Wrap::clamp;
     NormalMap normals = makeNormalMap(joined.image, map.path, options, warn);
     normals.tiles = joined.tiles;
