@@ -255,7 +255,7 @@ int main(int argc, char** argv) {
         const auto runs = [&](const char* name) {
             return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
         };
-        if (runs("dice")) benchDice(), benchMaps();
+        if (runs("dice")) benchMaps(), benchDice();
 #ifdef RELIEF_EVALUATORS
         if (runs("posing")) bench::benchPosing();
 #endif
