@@ -27,7 +27,7 @@ vec2 heightDerivatives(SurfacePoint point, HeightSample height) {
 #ifdef RELIEF_HEIGHT_FUNCTION
     vec2 dh = height.gradient;
 #else
-    vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
+    vec2 dh = kMapAddressing == kMapOfFaces ? height.gradient : heightGradient(height.gradient, point.tex.jacobian);
 #endif
     if (kStretches) dh += height.h * point.logStretch;
     return dh;
@@ -69,7 +69,7 @@ struct DisplacedSample {
     float h;
     LimitFrame frame;
     vec3 n;          // unit limit normal of the frame
-    vec2 gradient;   // (h_s, h_t); of a height function (h_u, h_v)
+    vec2 gradient;   // (h_s, h_t); of a height function and of a map per face (h_u, h_v)
     mat2 jacobian;   // of the texture coordinates
     vec4 gradientS;  // kHasTexGradients: as in varyings.glsl, in the model's own space
     vec4 gradientT;
@@ -155,7 +155,7 @@ HeightSample heightAt(SurfacePoint point, float level) {
 #ifdef RELIEF_HEIGHT_FUNCTION
     HeightSample height = sampleFunction(point.rest, point.tex);
 #else
-    HeightSample height = sampleHeight(point.tex.st, level);
+    HeightSample height = sampleHeight(MapPlace(point.face, point.uv, point.tex.st), level);
 #endif
     if (!kStretches) return height;
     precise float h = point.stretch * height.h;

@@ -132,7 +132,8 @@ DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* 
                               const ReferenceSurface* rest) {
     // The limit surface, and the height by the map alone.
     DisplacedFrame frame = frameWithoutHeight(surface, face, uv);
-    if (map != nullptr) frame.height = sampleHeight(*map, frame.tex.st);
+    if (map != nullptr) frame.height = sampleHeight(*map, {.face = face, .uv = uv, .st = frame.tex.st});
+    const bool isPerFace = map != nullptr && map->addressing == Addressing::faces;
 
     // How much the surface has grown since the rest pose.
     DualNumber stretch{1};
@@ -142,7 +143,7 @@ DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* 
                       ? stretchSince(before, frame.limit)
                       : stretchAtCorner(rest->areaNormal(face, uv), surface.areaNormal(face, uv));
     }
-    const DualNumber height = stretch * heightOver(frame.tex, frame.height);
+    const DualNumber height = stretch * heightOver(isPerFace ? TexFrame{} : frame.tex, frame.height);
     frame.height.h *= stretch.value, frame.height.hs *= stretch.value, frame.height.ht *= stretch.value;
     displace(frame, height);
     return frame;
