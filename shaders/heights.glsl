@@ -103,8 +103,7 @@ HeightSample sampleLevel(uint map, vec2 st, uint number) {
 
 // Between two levels of the map. Both are always read, one after the other and not in a loop: a processor then waits for the
 // memory of both at once. SwiftShader, which reads tables from storage buffers, takes minutes to compile that; it gets the loop.
-HeightSample sampleHeight(vec2 st, float level) {
-    uint map = mapAt(st);
+HeightSample betweenLevels(uint map, vec2 st, float level) {
     if (!kHasMips) return sampleLevel(map, st, 0u);
     float last = float(inputs.model.maps[map].levelCount - 1u);
     level = clamp(level, 0.0, last);

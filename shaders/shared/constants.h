@@ -38,7 +38,8 @@ RELIEF_CONSTANT uint kIdReadsSampleBuffers = 25u; // light: samples are those of
 RELIEF_CONSTANT uint kIdWritesIds = 26u;          // raster: samples are numbers of triangles, for raster_resolve.comp
 RELIEF_CONSTANT uint kIdHasSampleColors = 27u;    // light: samples in buffers have colours of their own
 RELIEF_CONSTANT uint kIdReadsShadowCodes = 28u;   // light: the shadow map is that of raster_*.comp
-RELIEF_CONSTANT uint kIdCount = 29u;
+RELIEF_CONSTANT uint kIdVectorSpace = 29u;        // kVector...
+RELIEF_CONSTANT uint kIdCount = 30u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -64,6 +65,11 @@ RELIEF_CONSTANT uint kNormalFull = 2u;
 RELIEF_CONSTANT uint kNormalMapNone = 0u;
 RELIEF_CONSTANT uint kNormalMapTangent = 1u;
 RELIEF_CONSTANT uint kNormalMapObject = 2u;
+
+// What the components of a vector map are along; kVectorNone: heights move the surface along its normal.
+RELIEF_CONSTANT uint kVectorNone = 0u;
+RELIEF_CONSTANT uint kVectorTangent = 1u;
+RELIEF_CONSTANT uint kVectorObject = 2u;
 
 // raster_*.comp: the list of triangles for raster_large.comp. Its first three words are the workgroups of that
 // dispatch.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -17,6 +18,8 @@ namespace relief {
 
 // --- height maps --------------------------------------------------------------------------------------------------
 
+struct VectorMap; // displacement/vector_map.h
+
 /// Values and what they mean: h(s,t) = scale * (texel - mid), bilinear between texel centres. t points up, row 0 is the
 /// top of the picture.
 struct HeightMap {
@@ -26,6 +29,8 @@ struct HeightMap {
     double scale = 1;          ///< cage units per unit of stored value
     Wrap wrap = Wrap::repeat;
     float lowest = 0, highest = 0; ///< range of the stored values
+    /// Not null: the surface is displaced by these vectors, and the texels are their lengths in cage units.
+    std::shared_ptr<const VectorMap> vectors{};
 
     /// Largest |h| in cage units.
     [[nodiscard]] double heightBound() const;
@@ -100,6 +105,7 @@ EncodedMap encode(const HeightMap& map, MapFormat format);
 struct MapWords {
     std::vector<std::uint32_t> words;
     std::vector<std::uint32_t> firsts; ///< first word of each level
+    std::vector<ivec2> sizes;          ///< texels of each level
     double mid = 0, scale = 0;         ///< h = scale * (number - mid) of the numbers that the words hold
     float roundOff = 0;                ///< largest difference of a mip's texel from the mean that it stands for
 };
@@ -165,6 +171,7 @@ struct DisplacedFrame {
     dvec3 normal{0}; ///< limit normal n
     dvec3 q{0};      ///< p + h n
     dvec3 firstOrder{0}, full{0};
+    dvec3 qu{0}, qv{0}; ///< derivatives of q by u and v; only of vector maps
 };
 
 /// Evaluates the displaced surface at (face,u,v) in double precision: the reference that the device is compared with.

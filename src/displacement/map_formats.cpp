@@ -214,6 +214,7 @@ MapWords toWords(const HeightMap& decoded, const MapEncoding& encoding) {
     words.words.reserve(mapBytes(encoding.format, decoded.width, decoded.height) / 4);
     const auto append = [&](const MapLevel<float>& level) {
         words.firsts.push_back(std::uint32_t(words.words.size()));
+        words.sizes.emplace_back(level.width, level.height);
         return encoding.format == MapFormat::bc4 ? appendBlocks(words, encoding, level)
                                                  : appendTexels(words, encoding, level);
     };

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "displacement/vector_map.h"
 #include "model/pictures.h"
 #include "model/stages.h"
 
@@ -13,7 +15,8 @@ std::span<const std::byte> bytesOf(const std::vector<T>& array) {
 
 /// A map whose words are more than the device reads from one table is refused before anything is allocated.
 void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) {
-    const std::uint64_t bytes = mapBytes(format, map.width, map.height), most = largestTable(device, 8);
+    const std::uint64_t maps = map.vectors ? 3 : 1;
+    const std::uint64_t bytes = maps * mapBytes(format, map.width, map.height), most = largestTable(device, 8);
     if (bytes > most)
         fail(Failure::device, "a height map of {} x {} takes {} with its mips; {} reads {}", map.width, map.height,
              humanBytes(bytes), device.traits().name, humanBytes(most));
@@ -29,6 +32,43 @@ MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
     RELIEF_CHECK(words.firsts.size() <= kMostMapLevels);
     std::ranges::copy(words.firsts, record.firstWords);
     return record;
+}
+
+/// Appends the words of a map to those of others. Blocks of texels begin at an even word.
+void appendWords(MapWords& to, const MapWords& words, MapRecord& record) {
+    to.words.resize((to.words.size() + 1) / 2 * 2, 0);
+    const auto first = std::uint32_t(to.words.size());
+    for (std::uint32_t level = 0; level < record.levelCount; ++level) {
+        record.firstWords[level] += first;
+        to.firsts.push_back(record.firstWords[level]);
+        to.sizes.push_back(words.sizes[level]);
+    }
+    to.words.insert(to.words.end(), words.words.begin(), words.words.end());
+}
+
+/// The three components of a vector map, one after the other in one table.
+void uploadVectors(Device& device, const HeightMap& map, SurfaceModel& model) {
+    const VectorMap& vectors = *map.vectors;
+    const MapFormat format = vectors.encodings.front().format;
+    checkMapSize(device, map, format);
+    MapWords all;
+    std::array<MapRecord, 3> records;
+    double roundOff = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        RELIEF_CHECK(vectors.encodings[k].format == format);
+        const MapWords words = toWords(vectors.channels[k], vectors.encodings[k]);
+        records[k] = makeRecord(vectors.channels[k], words);
+        appendWords(all, words, records[k]);
+        roundOff += double(words.roundOff) * std::abs(vectors.channels[k].scale);
+        model.componentPyramids.emplace_back(vectors.channels[k], words.roundOff);
+    }
+    model.height = GpuHeightMap{uploadHeights(device, std::move(all), format),
+                                records[0],
+                                format,
+                                float(map.heightBound()),
+                                std::uint32_t(vectors.space),
+                                {records[1], records[2]}};
+    model.heightPyramid = HeightPyramid(map, float(roundOff / std::abs(map.scale)));
 }
 
 /// Halves of split edges around n-gons are half as long as cage edges, and so are the sides of an n-gon's corner quads
@@ -84,13 +124,15 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     // Heights first: the bounds of faces need their range.
     if (desc.function != nullptr) {
         setFunction(*desc.function);
+    } else if (desc.height != nullptr && desc.height->vectors) {
+        uploadVectors(device, *desc.height, *this);
     } else if (desc.height != nullptr) {
         const MapEncoding asFloats;
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         checkMapSize(device, *desc.height, encoding.format);
         const MapWords words = toWords(*desc.height, encoding);
-        height = GpuHeightMap{uploadHeights(device, words, encoding.format, {desc.height->width, desc.height->height}),
-                              makeRecord(*desc.height, words), encoding.format, float(desc.height->heightBound())};
+        height = GpuHeightMap{uploadHeights(device, words, encoding.format), makeRecord(*desc.height, words),
+                              encoding.format, float(desc.height->heightBound())};
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
     }
     if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
@@ -107,7 +149,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     faceHeightBounds = movesByFunction ? std::vector<float>(surface.faces.size(), height->heightBound)
                                        : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
     faceBounds = relief::faceBounds(surface, refined, faceHeightBounds);
-    if (enclosesVolume(surface) && !movesByFunction) { // nothing bounds the slopes of a function
+    const bool movesByVectors = height && height->vectorSpace != kVectorNone;
+    if (enclosesVolume(surface) && !movesByFunction && !movesByVectors) { // nothing bounds the slopes of those
         faceNormals = relief::faceNormals(surface, refined);
         normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
     }

@@ -90,10 +90,10 @@ void toBlocks(std::span<std::byte> texels, const ivec2& size, std::size_t bytes)
 
 } // namespace
 
-TexelBuffer uploadHeights(Device& device, const MapWords& map, MapFormat format, const ivec2& size) {
-    std::vector<std::uint32_t> words = map.words;
+TexelBuffer uploadHeights(Device& device, MapWords map, MapFormat format) {
+    std::vector<std::uint32_t>& words = map.words;
     for (std::size_t level = 0; level < map.firsts.size() && format != MapFormat::bc4; ++level) {
-        const ivec2 levelSize = glm::max(size >> int(level), ivec2(1));
+        const ivec2 levelSize = map.sizes[level];
         if (!mapIsInBlocks(std::uint32_t(format), levelSize)) continue;
         const std::size_t bytes = std::size_t(levelSize.x) * std::size_t(levelSize.y) * texelBytes(format);
         toBlocks(std::as_writable_bytes(std::span(words)).subspan(4 * std::size_t(map.firsts[level]), bytes), levelSize,

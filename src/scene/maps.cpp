@@ -64,8 +64,26 @@ void warnOfFlatTexCoords(const LoadedObject& object, const std::string& path, co
                          path, count, cage.faceSizes.size(), isTurned ? "the normal map" : "the height map"));
 }
 
+namespace {
+
+/// Warns as loadHeights does. The map has its own encodings.
+HeightMap loadVectors(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
+    const HeightDesc& height = desc.height;
+    VectorOptions options = *height.vectors;
+    options.mid = height.mid, options.scale = height.scale, options.channel = height.channel;
+    options.format = height.format, options.wrap = height.wrap.value_or(options.wrap);
+    HeightMap map = loadVectorMap(height.path, options, warn);
+    if (!cage.hasTexCoords())
+        warn(fmt::format("{}: no texture coordinates: every face takes the whole map", desc.cage));
+    warnOutsideMap(desc, cage, height.path, warn);
+    return map;
+}
+
+} // namespace
+
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
     const HeightDesc& height = desc.height;
+    if (height.vectors) return {.decoded = loadVectors(desc, cage, warn), .encoding = {}};
     HeightOptions options{
         .mid = height.mid, .scale = height.scale, .channel = height.channel, .format = height.format, .limits = {}};
     options.wrap = height.wrap.value_or(options.wrap);
@@ -90,7 +108,7 @@ void fitUnitToHeights(LoadedObject& object, const Warn& warn) {
         for (vec3& p : object.cage.positions) p = dvec3(p) / factor;
         coordinates.unit *= factor;
     }
-    object.height->scale /= coordinates.unit;
+    scaleHeights(*object.height, 1 / coordinates.unit);
 }
 
 NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn) {
