@@ -2,6 +2,7 @@
 #define RELIEF_VARYING out
 #include "varyings.glsl"
 #include "project.glsl"
+#include "vertex_table.glsl"
 
 #ifdef RELIEF_CAPTURES_STREAM
 layout(xfb_buffer = 0, xfb_stride = 16, xfb_offset = 0, location = 7) out vec4 captured; // position, 1 on a boundary
@@ -14,6 +15,7 @@ vec4 emitVertex(uint face, vec2 uv, SampleLocation location, uint rate) {
     gl_Position = clip;
     vNormal = worldNormal(s.normal);
     vTexCoord = vec4(s.st, uv);
+    if (kShading == kShadingVertexTable && kPass == kPassSurface) vTexCoord.zw = tableCoordinates(vNormal, s.q);
     vHeight = s.h;
     vGradientS = kHasTexGradients ? worldGradient(s.gradientS) : vec4(0);
     vGradientT = kHasTexGradients ? worldGradient(s.gradientT) : vec4(0);

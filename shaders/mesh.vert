@@ -4,6 +4,7 @@
 #define RELIEF_VARYING out
 #include "varyings.glsl"
 #include "project.glsl"
+#include "vertex_table.glsl"
 
 // A triangle mesh as it is: a dense one, which displaced surfaces are compared with, or one that was diced.
 layout(push_constant, scalar) uniform PushBlock { MeshPush push; };
@@ -21,6 +22,8 @@ void main() {
     gl_Position = clip;
     vNormal = worldNormal(meshAt(2 * gl_VertexIndex + 1).xyz);
     vTexCoord = vec4(kHasTexCoords && kWantsTexCoords ? meshTexCoords(gl_VertexIndex) : vec2(0), vec2(0));
+    if (kShading == kShadingVertexTable && kPass == kPassSurface)
+        vTexCoord.zw = tableCoordinates(vNormal, vertex.xyz);
     vHeight = vertex.w;
     readGradients(uint(gl_VertexIndex));
     // A draw of one face carries its number; a whole mesh in one draw shows patches of 64 vertices instead.

@@ -15,14 +15,16 @@ layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
 
 #include "techniques.glsl"
 
-layout(location = 0) out vec2 normal; // octahedral
+layout(constant_id = kIdShading) const uint kShading = kShadingPhysical;
+
+layout(location = 0) out vec2 normal; // octahedral; kShadingVertexTable: coordinates in the table
 layout(location = 1) out vec4 color;  // albedo, or with --show what is seen: see storedColor()
 layout(location = 2) out uint instance; // kHasInstances: which one, for its material
 
 void main() {
     vec3 n = fragmentNormal();
     if (!gl_FrontFacing && kShow != kShowNormal) n = -n;
-    normal = roundToHalf(octahedral(n));
+    normal = roundToHalf(kShading == kShadingVertexTable ? vTexCoord.zw : octahedral(n));
     color = vec4(storedColor(techniqueColor(), kShow == kShowShaded), 1.0);
     if (kHasInstances) instance = inputs.view.instance;
 }

@@ -12,6 +12,7 @@
 #include "formula/formula.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"
+#include "light/light.h"
 #include "maps/maps.h"
 #include "measure/measure.h"
 #include "mesh/mesh.h"
@@ -20,3 +21,4 @@
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "triangles/triangles.h"
+#include "view/view.h"

@@ -45,6 +45,9 @@ RELIEF_CONSTANT uint kBindSampleInstances = 30u;  // table: four numbers of inst
 RELIEF_CONSTANT uint kBindFaceTriangles = 31u;    // table: first triangle and rate of each face of a diced mesh
 RELIEF_CONSTANT uint kBindCount = 32u;
 
+// light.comp: sampled image, the table of kShadingTable or the ball of kShadingMatcap. It has no color map.
+RELIEF_CONSTANT uint kBindShading = kBindAlbedo;
+
 #ifdef __cplusplus
 } // namespace relief
 #endif

@@ -38,8 +38,11 @@ RELIEF_CONSTANT uint kIdReadsSampleBuffers = 25u; // light: samples are those of
 RELIEF_CONSTANT uint kIdWritesIds = 26u;          // raster: samples are numbers of triangles, for raster_resolve.comp
 RELIEF_CONSTANT uint kIdHasSampleColors = 27u;    // light: samples in buffers have colours of their own
 RELIEF_CONSTANT uint kIdReadsShadowCodes = 28u;   // light: the shadow map is that of raster_*.comp
-RELIEF_CONSTANT uint kIdVectorSpace = 29u;        // kVector...
-RELIEF_CONSTANT uint kIdCount = 30u;
+RELIEF_CONSTANT uint kIdShading = 29u;            // kShading...
+RELIEF_CONSTANT uint kIdAddsLight = 30u;          // light: adds one more light to the picture, which has all else
+RELIEF_CONSTANT uint kIdHasOcclusion = 31u;       // light: occlusion.comp has run
+RELIEF_CONSTANT uint kIdVectorSpace = 32u;        // kVector...
+RELIEF_CONSTANT uint kIdCount = 33u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -48,6 +51,16 @@ RELIEF_CONSTANT uint kShowHeight = 2u;
 RELIEF_CONSTANT uint kShowRate = 3u;
 RELIEF_CONSTANT uint kShowFaces = 4u;
 RELIEF_CONSTANT uint kShowWireframe = 5u;
+
+// How surfaces shade (--shading); the physical material has a second form.
+RELIEF_CONSTANT uint kShadingPhysical = 0u;    // a dielectric
+RELIEF_CONSTANT uint kShadingConserving = 1u;  // dielectrics and metals that conserve energy, mirrors
+RELIEF_CONSTANT uint kShadingPhong = 2u;       // Hart, eq. 16.20
+RELIEF_CONSTANT uint kShadingTable = 3u;       // the same from a table, looked up per pixel
+RELIEF_CONSTANT uint kShadingVertexTable = 4u; // the same, with coordinates in the table that are those of vertices
+RELIEF_CONSTANT uint kShadingMatcap = 5u;      // a picture of a ball, looked up by the normal
+
+RELIEF_CONSTANT int kShadingTableSide = 256; // texels
 
 // What a draw is for.
 RELIEF_CONSTANT uint kPassSurface = 0u; // the G-buffer of a picture

@@ -67,12 +67,15 @@ struct Light {
     float shadowBias;     // along the normal, world units
     float shadowSoftness; // radius of the filter, as a fraction of the shadow map
     uint shadowSide;      // texels
+    vec4 phong;           // k_a, k_d, k_s and the exponent of Hart, eq. 16.20
+    float occlusionRadius; // world units
 };
 
 struct Material {
     vec3 albedo; // linear; times the albedo map where there is one
     float roughness;
-    float environmentLevel; // of the environment map for this roughness, a whole number: one level is read
+    float environmentLevel; // of the environment map for this roughness; kShadingPhysical: a whole number, one level is read
+    float metallic;         // kShadingConserving
 };
 
 #ifndef __cplusplus
@@ -107,6 +110,7 @@ struct Targets {
     RELIEF_ADDRESS(Words) shadow;         // as kBindShadowCodes
     RELIEF_ADDRESS(Words) crossings;      // kPassCracks: front faces less back faces per pixel
     RELIEF_ADDRESS(Words) largeTriangles; // kLarge...
+    RELIEF_ADDRESS(Floats) occlusion;     // occlusion.comp: the share of the environment that arrives, per pixel
 };
 
 struct PassInputs {
@@ -120,8 +124,8 @@ struct PassInputs {
 
 #ifdef __cplusplus
 static_assert(sizeof(ModelTables) == 18 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
-static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16);
-static_assert(sizeof(Material) == 20 && sizeof(Targets) == 18 * 8);
+static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16 + 20);
+static_assert(sizeof(Material) == 24 && sizeof(Targets) == 19 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));
 } // namespace relief::pass
 

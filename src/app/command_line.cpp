@@ -14,6 +14,11 @@ bool isNumberWithoutZero(const std::string& word) {
     return word.size() > 2 && word.starts_with("-.") && std::isdigit(static_cast<unsigned char>(word[2])) != 0;
 }
 
+bool looksLikeNumber(const std::string& word) {
+    double value = 0;
+    return CLI::detail::lexical_cast(word, value);
+}
+
 /// The first option of one value that is given again, as the user calls it, or "". CLI11 counts the values instead.
 std::string findRepeatedOption(const CLI::App& command, std::span<const std::string> words) {
     std::set<const CLI::Option*> seen;
@@ -52,6 +57,11 @@ std::vector<std::string> prepareWords(int argc, char** argv) {
         const bool isAlone = i + 1 == words.size() || !parseDistance(words[i + 1]);
         if (words[i] == "--weld" && isAlone) words[i] = "--weld=0";
         if (isNumberWithoutZero(words[i])) words[i].insert(1, "0");
+        // Azimuth and elevation may be two words, as those of other vectors.
+        if (words[i] == "--light" && i + 2 < words.size() && looksLikeNumber(words[i + 1]) && looksLikeNumber(words[i + 2])) {
+            words[i + 1] += "," + words[i + 2];
+            words.erase(words.begin() + std::ptrdiff_t(i) + 2);
+        }
     }
     return words;
 }

@@ -99,6 +99,7 @@ void FrameMaker::makeModel() {
     LoadedObject& object = loaded_.object;
     model_ = std::make_unique<Model>(relief::makeModel(*device_, object));
     environment_ = makeEnvironment(*device_, loaded_);
+    matcap_ = makeMatcap(*device_, loaded_);
     if (polygons_)
         meshPoser_ = std::make_unique<MeshPoser>(*device_, std::get<MeshModel>(*model_), *object.dense, Rig());
     else if (object.animation)
@@ -139,6 +140,7 @@ RenderOptions FrameMaker::optionsAt(int frame) const {
     // The light turns with the camera unless it is given.
     options.lighting =
         makeLighting(args_.scene.lighting, cameraAt(frame).azimuth, environment_ ? &*environment_ : nullptr);
+    options.matcap = matcap_ ? &*matcap_ : nullptr;
     return options;
 }
 

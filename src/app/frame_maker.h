@@ -63,6 +63,7 @@ private:
     bool isDense_ = false;
     std::unique_ptr<Device> device_;
     std::optional<GpuEnvironment> environment_; ///< default: the built-in studio
+    std::optional<GpuMatcap> matcap_;           ///< default: of the object's own material and lights
     std::unique_ptr<Model> model_;
     std::unique_ptr<Poser> poser_;
     std::unique_ptr<MeshPoser> meshPoser_; ///< of the polygons

@@ -33,6 +33,7 @@ struct Command {
 constexpr Command kCommands[] = {
     {"render", "draw one picture of a displaced cage, or of a mesh of triangles", app::addRender},
     {"animate", "draw the frames of a cage that moves, as pictures or as a clip", app::addAnimate},
+    {"view", "show a displaced cage in a window: turn it, change it, play it", app::addView},
     {"export", "write the displaced triangles as a mesh", app::addExport},
     {"sample", "evaluate points, tangents and normals of the surface on the device", app::addSample},
     {"check", "certify that the triangles are watertight, exact and one-to-one", app::addCheck},
@@ -40,6 +41,10 @@ constexpr Command kCommands[] = {
     {"doctor", "find what is wrong with height maps on a cage, and how other renderers show them", app::addDoctor},
     {"normal-map", "make a normal map of a height map", app::addNormalMap},
     {"height-map", "make a height map of a normal map", app::addHeightMap},
+    {"bake", "make a height map of a sculpt over a cage, with a certificate", app::addBake},
+    {"environment", "turn a picture of an environment into another shape, or blur it", app::addEnvironment},
+    {"matcap", "draw a ball of a material in light, for --shading matcap", app::addMatcap},
+    {"shading-table", "write the table of --shading table", app::addShadingTable},
     {"info", "describe files, or the Vulkan devices of this machine", app::addInfo},
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/light_options.h"
 #include "app/object_options.h"
 #include "app/options.h"
 #include "app/units.h"
@@ -26,7 +27,7 @@ void addLayers(CLI::App& app, std::vector<Layer>& layers) {
     listIn("shading", "LAYERS", option->delimiter(',')->check(oneOf(words)));
 }
 
-void addMaterial(CLI::App& app, MaterialDesc& material) {
+void addColors(CLI::App& app, MaterialDesc& material) {
     const char* group = "shading";
     const vec3 color = Material().albedo;
     listIn(group, "MAP", app.add_option("--albedo", material.albedo, "color map (sRGB)"));
@@ -37,10 +38,7 @@ void addMaterial(CLI::App& app, MaterialDesc& material) {
                                     "or 1,1,1 with a map)",
                                     color.x, color.y, color.z))
             ->check(numberIn(0, 1)));
-    listIn(group, "R",
-           app.add_option("--roughness", material.roughness,
-                          fmt::format("roughness of the surface, 0.05..1 (default: {:.2g})", material.roughness))
-               ->check(numberIn(0.05, 1)));
+    addReflection(app, material);
 }
 
 void addDetail(CLI::App& app, ObjectDesc& object) {
@@ -68,25 +66,11 @@ void addFilter(CLI::App& app, PictureArgs& picture) {
                ->needs(filter));
 }
 
-void addLighting(CLI::App& app, LightingDesc& lighting) {
-    const char* group = "shading";
-    listIn(group, "HDR",
-           app.add_option("--environment", lighting.environment,
-                          "environment light, an equirectangular picture: .hdr .exr (default: a neutral studio)"));
-    listIn(group, "AZ,EL",
-           addVector<dvec2>(app, "--light", lighting.key,
-                            fmt::format("azimuth and elevation of the key light in degrees (default: {} from the "
-                                        "camera's azimuth, {})",
-                                        Lighting().keyAzimuth - CameraOptions().azimuth, Lighting().keyElevation))
-               ->check(anyNumber()));
-    const auto setShadows = [&lighting](std::int64_t) { lighting.castsShadows = false; };
-    app.add_flag_function("--no-shadows", setShadows, "the key light casts no shadows")->group(group);
-}
-
 void addBackground(CLI::App& app, Finish& finish) {
     const char* group = "shading";
     const auto setColor = [&finish](const std::vector<double>& rgb) {
-        finish = {.background = Background::color, .color = vec3(rgb[0], rgb[1], rgb[2])};
+        finish.background = Background::color;
+        finish.color = vec3(rgb[0], rgb[1], rgb[2]);
     };
     CLI::Option* color = app.add_option_function<std::vector<double>>(
         "--background", setColor, "sRGB color 0..1 of the background of a .png or clip (default: a grey studio)");
@@ -96,6 +80,10 @@ void addBackground(CLI::App& app, Finish& finish) {
     app.add_flag_function("--transparent", setTransparent, "transparent background of a .png")
         ->excludes(color)
         ->group(group);
+    listIn(group, "STOPS",
+           app.add_option("--exposure", finish.exposure,
+                          "what a .png or clip shows: light times two to the power of STOPS (default: 0)")
+               ->check(numberIn(-30, 30)));
 }
 
 } // namespace
@@ -175,9 +163,10 @@ void addPicture(CLI::App& app, SceneDesc& scene, PictureArgs& picture) {
            addEnum(app, "--raster", picture.raster, kRasters, "what makes samples of triangles"));
     addCamera(app, scene.camera, scene.size);
     addDetail(app, scene.object);
-    addMaterial(app, scene.object.material);
+    addColors(app, scene.object.material);
     addFilter(app, picture);
     addLighting(app, scene.lighting);
+    addShading(app, scene.shading);
     listIn("shading", "WHAT", addEnum(app, "--show", picture.show, kShows, "what the picture shows"));
     addLayers(app, picture.layers);
     addBackground(app, picture.finish);
@@ -200,6 +189,9 @@ RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene
     options.filter = picture.filter;
     options.anisotropy = picture.anisotropy;
     options.lighting = makeLighting(scene.lighting, scene.camera.azimuth, nullptr);
+    options.shading = scene.shading.shading;
+    options.phong = scene.shading.phong;
+    options.tableAtVertices = scene.shading.tableAtVertices;
     options.unit = object.coordinates().unit;
     return options;
 }

@@ -28,7 +28,8 @@ struct RenderArgs {
 struct Drawn {
     Picture picture;
     std::string device;
-    std::string mapFormat; ///< empty without a map
+    std::string environmentNote; ///< LoadedScene's
+    std::string mapFormat;       ///< empty without a map
     std::optional<HeightFunction::Costs> function;
     std::string complaint; ///< why there is nothing to see, or empty
     std::uint64_t cageBytes = 0, mapBytes = 0, deviceBytes = 0;
@@ -60,7 +61,10 @@ nlohmann::json toJson(const RenderArgs& args, const Drawn& drawn) {
                        {"dice_ms", stats.diceMs},
                        {"shadow_ms", stats.shadowMs},
                        {"color_ms", stats.colorMs},
+                       {"occlusion_ms", stats.occlusionMs},
                        {"light_ms", stats.lightMs},
+                       {"other_lights_ms", stats.otherLightsMs},
+                       {"environment", drawn.environmentNote},
                        {"frame_ms", stats.wallMs}};
     if (drawn.function)
         all.update({{"function_compiled", drawn.function->compiledCount},
@@ -74,6 +78,7 @@ void report(const RenderArgs& args, const Drawn& drawn) {
     if (args.output.isJson) {
         printJson(toJson(args, drawn));
     } else if (!args.output.isQuiet) {
+        if (!drawn.environmentNote.empty()) std::cerr << drawn.environmentNote << '\n';
         // One line for people, and a second one with the time of every step.
         std::cerr << fmt::format("{}: {} triangles, {:.0f} ms on {}\n", args.target, stats.triangleCount, stats.wallMs,
                                  drawn.device);
@@ -133,6 +138,8 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     const std::optional<GpuEnvironment> environment = makeEnvironment(device, loaded);
     options.lighting =
         makeLighting(args.scene.lighting, args.scene.camera.azimuth, environment ? &*environment : nullptr);
+    const std::optional<GpuMatcap> matcap = makeMatcap(device, loaded);
+    options.matcap = matcap ? &*matcap : nullptr;
     options.camera = makeCamera(args.scene, coordinates, points);
     options.bounds = computeBounds(points);
     Model model = makeModel(device, loaded.object);
@@ -142,6 +149,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     // From here on the device holds everything that is drawn.
     const LoadedObject& object = loaded.object;
     Drawn drawn{.device = device.traits().name,
+                .environmentNote = loaded.environmentNote,
                 .mapFormat = object.height ? wordOf(kMapFormats, object.heightEncoding.format) : "",
                 .cageBytes = object.cage.byteCount(),
                 .mapBytes = mapBytesOf(model),

@@ -10,18 +10,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr int kStudioHeight = 64;
 constexpr int kLargestHeight = 512; // of a user's environment; sharper reflections do not show on a dielectric
-constexpr float kMostRadiance = 1e12f;
+constexpr int kSharpHeight = 2048;  // the same for mirrors
 constexpr int kFilteredHeight = 16; // levels of this size and below are convolved, larger ones averaged
-
-/// Direction of the centre of texel (x,y); the inverse of equirectangular() in light.comp.
-dvec3 texelDirection(const Image& image, int x, int y) {
-    const double phi = ((x + 0.5) / image.width - 0.5) * 2 * kPi, theta = (y + 0.5) / image.height * kPi;
-    return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
-}
-
-double texelSolidAngle(const Image& image, int y) {
-    return 2 * kPi / image.width * (std::cos(y * kPi / image.height) - std::cos((y + 1) * kPi / image.height));
-}
 
 vec3 rgb(const Image& image, int x, int y) {
     const float* c = image.at(x, y);
@@ -32,50 +22,6 @@ Image blank(int width, int height) { return {width, height, 3, std::vector<float
 
 void set(Image& image, int x, int y, const dvec3& c) {
     for (int i = 0; i < 3; ++i) image.at(x, y)[i] = float(c[i]);
-}
-
-Image halved(const Image& from) {
-    Image to = blank(std::max(1, from.width / 2), std::max(1, from.height / 2));
-    for (int y = 0; y < to.height; ++y)
-        for (int x = 0; x < to.width; ++x) {
-            dvec3 sum(0);
-            for (int k = 0; k < 4; ++k)
-                sum +=
-                    dvec3(rgb(from, std::min(2 * x + k % 2, from.width - 1), std::min(2 * y + k / 2, from.height - 1)));
-            set(to, x, y, sum / 4.0);
-        }
-    return to;
-}
-
-/// `source` seen by a GGX lobe of this roughness around every direction of a picture of the given size.
-Image convolved(const Image& source, int width, int height, double roughness) {
-    const double a2 = std::pow(roughness, 4);
-    std::vector<dvec3> directions; // of all texels of the source
-    for (int j = 0; j < source.height; ++j)
-        for (int i = 0; i < source.width; ++i) directions.push_back(texelDirection(source, i, j));
-    // Every texel is the mean of the source, weighted by the lobe around its direction with view and normal along it.
-    Image to = blank(width, height);
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const dvec3 n = texelDirection(to, x, y);
-            dvec3 sum(0);
-            double weights = 0;
-            for (int j = 0; j < source.height; ++j) {
-                const double solidAngle = texelSolidAngle(source, j);
-                for (int i = 0; i < source.width; ++i) {
-                    const double nl =
-                        glm::dot(n, directions[std::size_t(j) * std::size_t(source.width) + std::size_t(i)]);
-                    if (nl <= 0) continue;
-                    const double nh2 = 0.5 + 0.5 * nl; // h is half way between n = v and l
-                    const double d = nh2 * (a2 - 1) + 1;
-                    const double weight = a2 / (d * d) * nl * solidAngle;
-                    sum += weight * dvec3(rgb(source, i, j));
-                    weights += weight;
-                }
-            }
-            set(to, x, y, sum / weights);
-        }
-    return to;
 }
 
 /// Ramamoorthi and Hanrahan (2001): coefficients of the real spherical harmonics to order 2, times the cosine lobe's
@@ -98,8 +44,8 @@ void project(const Image& image, vec3 irradiance[9]) {
     }
 }
 
-Environment prepare(Image base) {
-    while (base.height > kLargestHeight) base = halved(base);
+Environment prepare(Image base, int largestHeight = kLargestHeight) {
+    while (base.height > largestHeight) base = halved(base);
     Environment environment;
     environment.levels.push_back(std::move(base));
     while (environment.levels.back().height > 4) environment.levels.push_back(halved(environment.levels.back()));
@@ -145,28 +91,17 @@ Environment studioEnvironment() {
     return prepare(std::move(image));
 }
 
-Environment loadEnvironment(const std::string& path) {
-    Image file = readImage(path);
-    if (file.channels < 3 || file.width < 8 || file.height < 4)
-        fail(Failure::input,
-             "{}: an environment is a color picture of at least 8 x 4 pixels; this one is {} x {} with {} channels",
-             path, file.width, file.height, file.channels);
-    if (file.width != 2 * file.height)
-        fail(Failure::input, "{}: an equirectangular environment is twice as wide as high; this one is {} x {}", path,
-             file.width, file.height);
-    Image image = blank(file.width, file.height);
-    for (int y = 0; y < file.height; ++y)
-        for (int x = 0; x < file.width; ++x)
-            for (int c = 0; c < 3; ++c) {
-                const float value = file.at(x, y)[c];
-                // Sums over all pixels stay finite, and the sun has 1.6e9 candela per square metre.
-                if (!std::isfinite(value) || value < 0 || value > kMostRadiance)
-                    fail(Failure::input, "{}: pixel {},{} is {}; radiance is a number in 0..{:g}", path, x, y, value,
-                         kMostRadiance);
-                image.at(x, y)[c] = value;
-            }
-    return prepare(std::move(image));
+Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp) {
+    RELIEF_CHECK(picture.images.size() == std::size_t(countImages(picture.shape)));
+    const int largest = isSharp ? kSharpHeight : kLargestHeight;
+    if (picture.shape == EnvironmentShape::equirect) return prepare(picture.images.front(), largest);
+    // Powers of two: levels halve down to four rows.
+    int side = 16;
+    while (side < std::min(largest, sideOf(picture, EnvironmentShape::equirect))) side *= 2;
+    return prepare(convert(picture, EnvironmentShape::equirect, side).images.front(), largest);
 }
+
+Environment loadEnvironment(const std::string& path) { return makeEnvironment(readEnvironment(path).picture); }
 
 GpuEnvironment uploadEnvironment(Device& device, const Environment& environment) {
     RELIEF_CHECK(!environment.levels.empty());

@@ -6,11 +6,12 @@
 #include <span>
 #include <variant>
 
+#include "frame/lighting.h"
 #include "triangles/triangles.h"
 
 namespace relief {
 
-// --- camera and light ---------------------------------------------------------------------------------------------
+// --- camera and instances -----------------------------------------------------------------------------------------
 
 /// Angles in degrees: azimuth 0 looks along -Z and grows to the right around Y, elevation up.
 struct CameraOptions {
@@ -43,39 +44,6 @@ View viewOf(const Camera& camera, int height);
 
 /// Unit vector from the origin towards an azimuth and elevation in degrees.
 dvec3 directionAt(double azimuth, double elevation);
-
-/// An equirectangular environment on the host, ready to light with.
-struct Environment {
-    std::vector<Image> levels; ///< RGB radiance; level l is seen by a surface of roughness l / (levels.size() - 1)
-    vec3 irradiance[9];        ///< coefficients of polynomials of the normal, see light.comp
-};
-
-/// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
-Environment studioEnvironment();
-
-/// Loads a .hdr or .exr with width = 2 height. Throws Failure::input for other shapes and values below zero.
-Environment loadEnvironment(const std::string& path);
-
-/// An environment on the device, which owns its texture: what Lighting refers to.
-struct GpuEnvironment {
-    Texture levels; ///< one mip per level, RGBA
-    vec3 irradiance[9]{};
-};
-
-/// Uploads a copy of `environment`: later changes of it do not show.
-GpuEnvironment uploadEnvironment(Device& device, const Environment& environment);
-
-struct Lighting {
-    double keyAzimuth = -25, keyElevation = 50; ///< degrees, as the camera's
-    double keyStrength = 2.9;                   ///< radiance times pi of the key light
-    bool castsShadows = true;
-    const GpuEnvironment* environment = nullptr; ///< null: studioEnvironment()
-};
-
-struct Material {
-    vec3 albedo{0.52f, 0.50f, 0.47f}; ///< linear; multiplies the albedo map where there is one
-    float roughness = 0.4f;
-};
 
 /// A surface or a mesh that stands somewhere in the world. The model has to outlive the picture's rendering.
 struct Instance {
@@ -127,6 +95,10 @@ enum class Show { shaded, normal, height, rate, faces, wireframe };
 
 struct RenderOptions : TriangleOptions {
     Show show = Show::shaded;
+    Shading shading = Shading::physical;
+    PhongCoefficients phong;           ///< of Shading::phong and Shading::table
+    bool tableAtVertices = false;      ///< Shading::table: n.l and v.r are those of vertices, interpolated
+    const GpuMatcap* matcap = nullptr; ///< null: a ball of the first instance's material, in the picture's light
     Camera camera;
     Lighting lighting;
     Bounds bounds; ///< of all instances in the world: what the shadow map covers
@@ -135,6 +107,7 @@ struct RenderOptions : TriangleOptions {
     float anisotropy = 8; ///< anisotropic: most lookups per pixel, at most DeviceTraits::maxAnisotropy
     std::vector<Layer> layers;
     double unit = 1; ///< cage units per unit of the model: layers hold depths and heights in cage units
+    std::optional<Camera> rateCamera;   ///< what rates are measured from, for looking at them from elsewhere
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
     bool countsPipeline = false;
     std::optional<std::uint32_t> meshTrianglesInFlight; ///< see DeviceTraits; default what suits the device
@@ -148,6 +121,7 @@ struct FrameStats {
     Raster raster = Raster::hardware; ///< that made the samples
     /// Times of the passes on the device, milliseconds; 0 where it cannot time.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
+    double occlusionMs = 0, otherLightsMs = 0; ///< shadows and light of Lighting::others
     double wallMs = 0;       ///< rates to pixels on the host
     PipelineCounts pipeline; ///< of the color pass, where RenderOptions asks for it and the device can
 };
@@ -176,6 +150,9 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    /// Makes pictures of another size from now on; shaders stay compiled. Throws as the constructor does.
+    void resize(const RendererDesc& desc);
+
     /// Throws Failure::usage for a rate or path that the device cannot do, and for more than kMostInstances.
     Picture render(std::span<const Instance> instances, const RenderOptions& options);
     Picture render(const Instance& instance, const RenderOptions& options) {
@@ -197,7 +174,8 @@ private:
 enum class Background { studio, transparent, color };
 struct Finish {
     Background background = Background::studio;
-    vec3 color{1}; ///< sRGB 0..1
+    vec3 color{1};       ///< sRGB 0..1
+    double exposure = 0; ///< light is multiplied by two to this power before the tone curve
 };
 
 /// What a .png shows: tone-mapped, sRGB 0..1, 3 channels, or 4 where the background is transparent.

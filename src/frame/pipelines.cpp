@@ -26,6 +26,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
         c.hasSlopes = pictures.slopes.has_value() || drawn.isBentByFunction();
         c.normalMap = normalMapConstant(pictures);
     }
+    // Of shadings, vertices and fragments know the one that is theirs.
+    if (pass == DrawPass::surface && frame.shading == kShadingVertexTable) c.shading = frame.shading;
     if (pass == DrawPass::layers) {
         c.wantsTexCoords = true;
     } else if (row.hasNormals) {
@@ -103,12 +105,22 @@ const Pipeline& Renderer::Parts::computePipeline(const char* file, const Surface
                         .layout = passLayout(device)});
 }
 
-const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame) {
+const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLight) {
     return computePipeline("light.comp", nullptr,
                            {.show = frame.technique.constant,
                             .hasInstances = frame.hasInstances(),
                             .readsSampleBuffers = frame.raster == Raster::compute,
                             .readsShadowCodes = frame.shadowRaster == Raster::compute,
+                            .hasSampleColors = frame.writesIds,
+                            .shading = frame.shading,
+                            .addsLight = addsLight,
+                            .hasOcclusion = frame.hasOcclusion()});
+}
+
+const Pipeline& Renderer::Parts::occlusionPipeline(const Frame& frame) {
+    return computePipeline("occlusion.comp", nullptr,
+                           {.show = frame.technique.constant,
+                            .readsSampleBuffers = frame.raster == Raster::compute,
                             .hasSampleColors = frame.writesIds});
 }
 

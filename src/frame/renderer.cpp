@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/clock.h"
 
@@ -17,20 +18,38 @@ SamplerDesc clampedSampler(VkFilter filter) {
 /// The scale of a matrix that rotates and scales uniformly.
 double scaleOf(const mat4& toWorld) { return std::cbrt(glm::determinant(glm::dmat3(mat3(toWorld)))); }
 
+void checkSize(const RendererDesc& desc) {
+    if (desc.width < 1 || desc.height < 1 || desc.width > 16384 || desc.height > 16384)
+        fail(Failure::usage, "a picture of {} x {} is not in 1..16384 each way", desc.width, desc.height);
+}
+
 } // namespace
 
 Renderer::Renderer(Device& device, const RendererDesc& desc) {
-    if (desc.width < 1 || desc.height < 1 || desc.width > 16384 || desc.height > 16384)
-        fail(Failure::usage, "a picture of {} x {} is not in 1..16384 each way", desc.width, desc.height);
+    checkSize(desc);
     parts_ = std::make_unique<Parts>(device, desc);
 }
 
 Renderer::~Renderer() = default;
 
+void Renderer::resize(const RendererDesc& desc) {
+    checkSize(desc);
+    Parts& parts = *parts_;
+    const RendererDesc before = std::exchange(parts.desc, desc);
+    if (before.shadowSide != desc.shadowSide) parts.shadow.reset(), parts.buffers.reset();
+    if (before.width == desc.width && before.height == desc.height) return;
+    parts.images.reset();
+    parts.buffers.reset();
+    parts.layerTargets.reset();
+    parts.picture = {}; // ends before its successor is made, which takes its memory
+    parts.picture = makePictureBuffer(parts.device, desc);
+}
+
 Renderer::Parts::Parts(Device& device, const RendererDesc& desc)
     : device(device), desc(desc), picture(makePictureBuffer(device, desc)), resources(device),
       around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
-      nearest(makeSampler(device, clampedSampler(VK_FILTER_NEAREST))), timer(device, 8), counter(device), rater(device),
+      nearest(makeSampler(device, clampedSampler(VK_FILTER_NEAREST))),
+      smooth(makeSampler(device, clampedSampler(VK_FILTER_LINEAR))), timer(device, 8), counter(device), rater(device),
       dicer(device) {}
 
 // --- prepare --------------------------------------------------------------------------------------------------------
@@ -42,8 +61,10 @@ void Renderer::Parts::useEnvironment(Frame& frame) {
         environment = &*studio;
     }
     std::ranges::copy(environment->irradiance, frame.inputs.light.irradiance);
-    for (pass::Material& material : frame.materials)
-        material.environmentLevel = std::round(material.roughness * float(environment->levels.desc.mipCount - 1));
+    for (pass::Material& material : frame.materials) {
+        material.environmentLevel = material.roughness * float(environment->levels.desc.mipCount - 1);
+        if (frame.shading == kShadingPhysical) material.environmentLevel = std::round(material.environmentLevel);
+    }
     frame.bindings[kBindEnvironment] = {.view = environment->levels.view.get(), .sampler = around.get()};
 }
 
@@ -60,20 +81,11 @@ void Renderer::Parts::describeView(Frame& frame) {
     view.eye = vec3(o.camera.eye);
     view.pictureSize = {desc.width, desc.height};
 
-    // The key light, slightly warm. Its shadow is softened over three texels and biased by one and a half.
-    pass::Light& light = frame.inputs.light;
-    const dvec3 key = directionAt(o.lighting.keyAzimuth, o.lighting.keyElevation);
-    light.keyDirection = vec3(key);
-    light.keyRadiance = vec3(float(o.lighting.keyStrength)) * vec3(1.0f, 0.97f, 0.92f);
-    light.hasShadows = frame.castsShadows() ? 1 : 0;
-    light.toShadow = shadowMatrix(key, o.bounds);
-    light.shadowBias = float(1.5 * o.bounds.diagonal() / desc.shadowSide);
-    light.shadowSoftness = 3.0f / float(desc.shadowSide);
-    light.shadowSide = std::uint32_t(desc.shadowSide);
-
+    useLight(frame, keyOf(o.lighting));
     // The samples that light.comp reads.
     frame.bindings = resources.bindings();
     useEnvironment(frame);
+    useShading(frame);
     frame.inputs.material = frame.materials.front();
     frame.inputs.targets.picture = picture.address;
 }
@@ -142,6 +154,7 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
 
     // Vertices stay in the model's own space, where floats are precise; the matrices lead from there.
     const glm::dmat4 toWorld(instance.toWorld), fromWorld = glm::inverse(toWorld);
+    drawn.toWorld = toWorld;
     const double scale = scaleOf(instance.toWorld);
     RELIEF_CHECK(scale > 0);
     pass::View& view = drawn.inputs.view;
@@ -154,6 +167,12 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
     drawn.view = viewOf(frame.options.camera, desc.height);
     drawn.view.eye = view.eye;
     drawn.view.nearDistance = float(drawn.view.nearDistance / scale);
+    drawn.rateView = drawn.view;
+    if (frame.options.rateCamera) {
+        drawn.rateView = viewOf(*frame.options.rateCamera, desc.height);
+        drawn.rateView.eye = vec3(dvec3(fromWorld * glm::dvec4(frame.options.rateCamera->eye, 1)));
+        drawn.rateView.nearDistance = float(drawn.rateView.nearDistance / scale);
+    }
     return drawn;
 }
 
@@ -161,13 +180,12 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
     Frame frame{.options = options, .technique = techniqueOf(options.show), .path = options.path};
     if (frame.technique.hasLines && !device.traits().hasWireframe)
         fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it", device.traits().name);
+    frame.shading = shadingOf(instances, options);
     if (instances.empty() || instances.size() > kMostInstances)
         fail(Failure::usage, "a picture of {} instances is not in 1..{}", instances.size(), kMostInstances);
 
     // What all instances share; their numbers on samples where there are several.
-    for (const Instance& instance : instances)
-        frame.materials.push_back(
-            {.albedo = instance.material.albedo, .roughness = std::clamp(instance.material.roughness, 0.05f, 1.0f)});
+    for (const Instance& instance : instances) frame.materials.push_back(toPass(instance.material, frame.shading));
     while (inputBuffers.size() < instances.size() + 1) inputBuffers.push_back(makeInputBuffer(device));
     frame.drawn.resize(instances.size());
     describeView(frame);
@@ -193,6 +211,7 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
     chooseRasters(frame);
     useImages(frame);
     if (frame.rastersInCompute()) useBuffers(frame);
+    if (frame.hasOcclusion()) useOcclusion(frame);
     return frame;
 }
 
@@ -247,8 +266,8 @@ void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) 
     rendering.end();
 }
 
-void Renderer::Parts::lightPass(VkCommandBuffer commands, const Frame& frame) {
-    bind(commands, lightPipeline(frame), frame.set);
+void Renderer::Parts::lightPass(VkCommandBuffer commands, const Frame& frame, bool addsLight) {
+    bind(commands, lightPipeline(frame, addsLight), frame.set);
     vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
     barrier(commands);
 }
@@ -263,7 +282,14 @@ void Renderer::Parts::record(VkCommandBuffer commands, Frame& frame) {
     surfacePass(commands, frame);
     if (frame.options.countsPipeline) counter.end(commands);
     timer.stamp(commands);
+    if (frame.hasOcclusion()) {
+        occlusionPass(commands, frame);
+        timer.stamp(commands);
+    }
     lightPass(commands, frame);
+    timer.stamp(commands);
+    if (frame.otherLights().empty()) return;
+    otherLightPasses(commands, frame);
     timer.stamp(commands);
 }
 
@@ -271,8 +297,12 @@ void Renderer::Parts::record(VkCommandBuffer commands, Frame& frame) {
 
 Picture Renderer::Parts::read(Frame& frame) {
     const std::vector<double> times = timer.intervals();
-    if (times.size() == 3)
-        frame.stats.shadowMs = times[0], frame.stats.colorMs = times[1], frame.stats.lightMs = times[2];
+    const std::size_t light = frame.hasOcclusion() ? 3 : 2, others = light + 1;
+    if (times.size() > light) {
+        frame.stats.shadowMs = times[0], frame.stats.colorMs = times[1], frame.stats.lightMs = times[light];
+        if (frame.hasOcclusion()) frame.stats.occlusionMs = times[2];
+        if (!frame.otherLights().empty()) frame.stats.otherLightsMs = times[others];
+    }
     if (frame.options.countsPipeline) frame.stats.pipeline = counter.counts();
     const auto* halves = static_cast<const std::uint16_t*>(this->picture.mapped);
     Picture picture;
@@ -288,6 +318,8 @@ Picture Renderer::Parts::read(Frame& frame) {
 Picture Renderer::render(std::span<const Instance> instances, const RenderOptions& options) {
     Parts& parts = *parts_;
     const double start = secondsNow();
+    if (options.shading == Shading::matcap && options.matcap == nullptr && !instances.empty())
+        parts.makeOwnMatcap(instances.front().material, options);
     Parts::Frame frame = parts.prepare(instances, options);
     parts.makeSets(frame, DrawPass::surface);
     parts.submit(frame);

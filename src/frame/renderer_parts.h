@@ -22,7 +22,7 @@ struct Renderer::Parts {
     bool drawsLarge = false; ///< compute rasterizer: a picture so far had triangles for raster_large.comp
     PassResources resources;
     std::vector<Buffer> inputBuffers; ///< one per instance, and one for the passes over pixels
-    Owned<VkSampler> around, nearest;
+    Owned<VkSampler> around, nearest, smooth;
     std::map<SamplerKey, Owned<VkSampler>> samplers; ///< of the pictures of models
     Timer timer;
     PipelineCounter counter;
@@ -32,6 +32,10 @@ struct Renderer::Parts {
     std::map<std::uint32_t, Buffer> grids;                    ///< index buffers of quads by their columns,
     std::map<std::uint32_t, Buffer> triangleGrids;            ///< of triangles by their rate
     std::optional<GpuEnvironment> studio;                     ///< uploaded when first needed
+    std::optional<GpuMatcap> ownMatcap;                       ///< of the picture's own material and lights
+    std::optional<Texture> shadingTable;                      ///< of `tablePhong`
+    PhongCoefficients tablePhong;
+    Buffer occlusion; ///< two floats per pixel; made when first needed
     std::optional<LayerTargets> layerTargets;
 
     [[nodiscard]] uvec2 size() const { return {desc.width, desc.height}; }
@@ -43,6 +47,8 @@ struct Renderer::Parts {
         PassInputs inputs{}; ///< in the model's own space
         PassBindings bindings{};
         View view; ///< in the model's own space
+        glm::dmat4 toWorld{1};
+        View rateView; ///< what rates are measured from: `view`, or that of RenderOptions::rateCamera
         EdgeRates rates;
         RateTables rateTables;
         TexelBuffer drawFaces;
@@ -79,13 +85,25 @@ struct Renderer::Parts {
         BindingSet set;
         FrameStats stats;
 
+        std::uint32_t shading = kShadingPhysical; ///< kShading...
         bool writesIds = false; ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
 
         [[nodiscard]] bool hasInstances() const { return drawn.size() > 1; }
         [[nodiscard]] bool rastersInCompute() const {
             return raster == Raster::compute || shadowRaster == Raster::compute;
         }
-        [[nodiscard]] bool castsShadows() const { return options.lighting.castsShadows && technique.isLit; }
+        [[nodiscard]] bool hasOcclusion() const {
+            return technique.isLit && options.lighting.occlusionRadius > 0 &&
+                   (shading == kShadingPhysical || shading == kShadingConserving);
+        }
+        /// A matcap has the light of all lights in it.
+        [[nodiscard]] std::span<const DistantLight> otherLights() const {
+            if (!technique.isLit || shading == kShadingMatcap) return {};
+            return options.lighting.others;
+        }
+        [[nodiscard]] bool castsShadows() const {
+            return options.lighting.castsShadows && technique.isLit && shading != kShadingMatcap;
+        }
     };
 
     // What a frame is made of, in this order.
@@ -96,6 +114,10 @@ struct Renderer::Parts {
     // prepare()
     void describeView(Frame& frame);
     void useEnvironment(Frame& frame);
+    void useLight(Frame& frame, const DistantLight& light);
+    void useShading(Frame& frame);
+    void useOcclusion(Frame& frame);
+    void makeOwnMatcap(const Material& material, const RenderOptions& options);
     VkSampler samplerOf(const RenderOptions& options, Wrap wrap);
     void useSamplers(const Frame& frame, Drawn& drawn);
     Drawn describe(const Frame& frame, const Instance& instance, std::size_t number);
@@ -113,7 +135,8 @@ struct Renderer::Parts {
     std::vector<Stage> stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
     /// `surface`: what the shader works on; null for one that works on pixels or a mesh.
     const Pipeline& computePipeline(const char* file, const SurfaceModel* surface, const ShaderConstants& constants);
-    const Pipeline& lightPipeline(const Frame& frame);
+    const Pipeline& lightPipeline(const Frame& frame, bool addsLight = false);
+    const Pipeline& occlusionPipeline(const Frame& frame);
 
     // Draws.
     [[nodiscard]] const Buffer& gridOf(const SurfaceModel& model, const DrawBatch& batch) const;
@@ -140,7 +163,9 @@ struct Renderer::Parts {
     // Passes.
     void shadowPass(VkCommandBuffer commands, const Frame& frame);
     void surfacePass(VkCommandBuffer commands, const Frame& frame);
-    void lightPass(VkCommandBuffer commands, const Frame& frame);
+    void occlusionPass(VkCommandBuffer commands, const Frame& frame);
+    void lightPass(VkCommandBuffer commands, const Frame& frame, bool addsLight = false);
+    void otherLightPasses(VkCommandBuffer commands, Frame& frame);
     std::vector<int> crossingsOfDraws(Frame& frame);
     std::vector<int> crossingsInCompute(Frame& frame);
     void renderLayers(Frame& frame, Picture& picture);
@@ -148,5 +173,10 @@ struct Renderer::Parts {
     void layerValuesPass(VkCommandBuffer commands, const Frame& frame);
     const Pipeline& layerPipeline(const Frame& frame, const Drawn& drawn);
 };
+
+/// kShading... of a picture. Throws Failure::usage for what cannot be drawn together.
+std::uint32_t shadingOf(std::span<const Instance> instances, const RenderOptions& options);
+pass::Material toPass(const Material& material, std::uint32_t shading);
+DistantLight keyOf(const Lighting& lighting);
 
 } // namespace relief

@@ -106,6 +106,9 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
     values[kIdVectorSpace] = vectorSpace;
+    values[kIdShading] = shading;
+    values[kIdAddsLight] = addsLight;
+    values[kIdHasOcclusion] = hasOcclusion;
     return values;
 }
 

@@ -33,6 +33,8 @@ struct ShaderConstants {
     std::uint32_t vectorSpace = kVectorNone;
     bool readsRest = false;
     bool readsSampleBuffers = false, readsShadowCodes = false, writesIds = false, hasSampleColors = false;
+    std::uint32_t shading = kShadingPhysical;
+    bool addsLight = false, hasOcclusion = false;
 
     /// One value per id, in the order of ids.
     [[nodiscard]] std::vector<std::uint32_t> values() const;

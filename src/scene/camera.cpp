@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scene/loading.h"
 #include "scene/scene.h"
 
 namespace relief {
@@ -55,6 +56,10 @@ Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnviron
     Lighting lighting;
     lighting.keyAzimuth = azimuth + (Lighting().keyAzimuth - CameraOptions().azimuth);
     if (desc.key) lighting.keyAzimuth = desc.key->x, lighting.keyElevation = desc.key->y;
+    lighting.keyStrength = desc.keyStrength.value_or(lighting.keyStrength);
+    lighting.keyColor = desc.keyColor.value_or(lighting.keyColor);
+    lighting.others = desc.others;
+    lighting.occlusionRadius = desc.occlusionRadius;
     lighting.castsShadows = desc.castsShadows;
     lighting.environment = environment;
     return lighting;
@@ -65,12 +70,19 @@ std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene&
     return uploadEnvironment(device, *loaded.environment);
 }
 
+std::optional<GpuMatcap> makeMatcap(Device& device, const LoadedScene& loaded) {
+    if (!loaded.matcap) return {};
+    return uploadMatcap(device, *loaded.matcap);
+}
+
 Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor) {
     Material material;
     if (!desc.albedo.empty()) material.albedo = vec3(1);
     if (textureColor) material.albedo = *textureColor;
     if (desc.color) material.albedo = *desc.color;
     material.roughness = desc.roughness;
+    material.metallic = desc.metallic;
+    if (isMirror(desc) && !material.metallic) material.metallic = 0;
     return material;
 }
 

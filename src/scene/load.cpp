@@ -114,7 +114,8 @@ std::vector<std::string> listFiles(const ObjectDesc& object) {
 
 std::vector<std::string> listFiles(const SceneDesc& scene) {
     std::vector<std::string> files = listFiles(scene.object);
-    files.push_back(scene.lighting.environment);
+    for (const std::string& file : listEnvironmentFiles(scene.lighting.environment)) files.push_back(file);
+    files.push_back(scene.shading.matcap);
     return files;
 }
 
@@ -164,6 +165,20 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     return object;
 }
 
+namespace {
+
+void loadLight(LoadedScene& scene, const SceneDesc& desc) {
+    if (!desc.shading.matcap.empty()) scene.matcap = loadMatcap(desc.shading.matcap);
+    const std::string& path = desc.lighting.environment;
+    if (path.empty()) return;
+    const EnvironmentFile file = readEnvironment(path, desc.lighting.shape);
+    const MaterialDesc& material = desc.object.material;
+    scene.environment = makeEnvironment(file.picture, material.metallic || isMirror(material));
+    if (file.isChosen) scene.environmentNote = fmt::format("{}: {}", path, describe(file.picture, file.layout));
+}
+
+} // namespace
+
 LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
     const ObjectDesc& object = desc.object;
     LoadedScene scene{.object = load(object, state, warn)};
@@ -183,7 +198,7 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
     warnOfFlatTexCoords(scene.object, object.cage, warn);
     warnOfNoHeights(object, warn);
     splitForTangents(scene.object);
-    if (!desc.lighting.environment.empty()) scene.environment = loadEnvironment(desc.lighting.environment);
+    loadLight(scene, desc);
     return scene;
 }
 

@@ -145,4 +145,26 @@ Image loadAlbedo(const std::string& path, const Warn& warn) {
     return image;
 }
 
+Image loadMatcap(const std::string& path) {
+    const ImageInfo info = readImageInfo(path);
+    const Image file = readImage(path);
+    if (file.channels < 3 || file.width != file.height)
+        fail(Failure::input, "{}: a matcap is a square color picture of a ball; this one is {} x {} with {} channels",
+             path, file.width, file.height, file.channels);
+    Image ball{file.width, file.height, 3, {}};
+    ball.texels.reserve(std::size_t(file.width) * std::size_t(file.height) * 3);
+    for (int y = 0; y < file.height; ++y)
+        for (int x = 0; x < file.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const float value = file.at(x, y)[c];
+                if (!std::isfinite(value) || value < 0)
+                    fail(Failure::input, "{}: pixel {},{} is {}; light is a number from 0 on", path, x, y, value);
+                // Codes are sRGB (IEC 61966-2-1), made linear.
+                const float linear =
+                    value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+                ball.texels.push_back(info.isFloat ? value : linear);
+            }
+    return ball;
+}
+
 } // namespace relief

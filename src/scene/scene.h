@@ -60,7 +60,8 @@ struct MotionDesc {
 struct MaterialDesc {
     std::string albedo;        ///< path of a color map, or empty
     std::optional<vec3> color; ///< linear, multiplies the map; default: that of Material, or white with a map
-    float roughness = Material().roughness;
+    float roughness = Material().roughness; ///< below 0.05: as if metallic were 0
+    std::optional<float> metallic;          ///< of Material
     NormalMapDesc normalMap;
 };
 
@@ -76,8 +77,21 @@ struct ObjectDesc {
 
 struct LightingDesc {
     std::optional<dvec2> key; ///< azimuth and elevation of the key light, degrees; default: left of the camera
+    std::optional<double> keyStrength; ///< default: that of Lighting
+    std::optional<vec3> keyColor;
+    std::vector<DistantLight> others;
     bool castsShadows = Lighting().castsShadows;
-    std::string environment; ///< path of an equirectangular picture; empty: the built-in studio
+    std::string environment;               ///< path as of readEnvironment; empty: the built-in studio
+    std::optional<EnvironmentShape> shape; ///< of it; default: what its sides say
+    double occlusionRadius = 0;            ///< as Lighting's
+};
+
+/// How surfaces shade.
+struct ShadingDesc {
+    Shading shading = Shading::physical;
+    PhongCoefficients phong;
+    bool tableAtVertices = false;
+    std::string matcap; ///< path of a picture of a ball; empty: one of the object's own material and lights
 };
 
 struct SceneDesc {
@@ -85,6 +99,7 @@ struct SceneDesc {
     CameraOptions camera;                                    ///< in the world
     ivec2 size{RendererDesc().width, RendererDesc().height}; ///< pixels of the picture
     LightingDesc lighting;
+    ShadingDesc shading;
 };
 
 /// All files that are named: outputs must not replace them. Names are empty where nothing is asked for.
@@ -133,6 +148,8 @@ struct LoadedObject {
 struct LoadedScene {
     LoadedObject object;
     std::optional<Environment> environment; ///< default: the built-in studio
+    std::string environmentNote;            ///< what its picture was taken for, where no shape was asked for; or empty
+    std::optional<Image> matcap;            ///< that is asked for
 };
 
 /// Whether a cage that moves is loaded in the pose of MotionDesc::time, or at rest to be posed on the device.
@@ -224,6 +241,8 @@ Camera placeCamera(const CameraOptions& options, const Bounds& bounds);
 Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment);
 /// Uploads the environment of a scene; empty where it has none of its own.
 std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded);
+/// Uploads the matcap of a scene; empty where it has none of its own.
+std::optional<GpuMatcap> makeMatcap(Device& device, const LoadedScene& loaded);
 /// `textureColor`: LoadedObject's.
 Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor = {});
 

@@ -91,6 +91,25 @@ inline constexpr Word<Interpolation> kInterpolations[] = {
     {"step", Interpolation::step, "the earlier key holds until the next one"},
 };
 
+inline constexpr Word<EnvironmentShape> kEnvironmentShapes[] = {
+    {"equirect", EnvironmentShape::equirect, "longitude and latitude, twice as wide as high"},
+    {"cube", EnvironmentShape::cube, "six faces: in files with {face} in their names, or in a cross, column or strip"},
+    {"sphere", EnvironmentShape::sphere, "a mirroring ball, black outside of it"},
+};
+
+inline constexpr Word<CubeLayout> kCubeLayouts[] = {
+    {"cross", CubeLayout::cross, "four by three faces"},
+    {"column", CubeLayout::column, "three by four faces"},
+    {"strip", CubeLayout::strip, "six faces side by side: px nx py ny pz nz"},
+};
+
+inline constexpr Word<Shading> kShadings[] = {
+    {"physical", Shading::physical, "the material in the environment and the lights"},
+    {"phong", Shading::phong, "k_a c + k_d c (n.l) + k_s (v.r)^e"},
+    {"table", Shading::table, "the same, from a table looked up at n.l and v.r"},
+    {"matcap", Shading::matcap, "a picture of a ball, looked up by the normal as the eye sees it"},
+};
+
 inline constexpr Word<Show> kShows[] = {
     {"shaded", Show::shaded, "the material in light"},
     {"normal", Show::normal, "normals as colors"},

@@ -124,7 +124,7 @@ TEST(Usage, wrongOptionsAreOneLineWithTheOption) {
         {"--look-at 1,2", "--look-at"},
         {"--light 40", "--light"},
         {"--color 1,1,2", "--color"},
-        {"--roughness 0", "0.05..1"},
+        {"--roughness -1", "0..1"},
         {"--background 1,0,0 --transparent", "--transparent"},
         {"--progress sometimes", "always"},
         {"--height", "--height"},
