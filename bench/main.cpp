@@ -170,6 +170,59 @@ int benchDice() {
     return 0;
 }
 
+/// The map cut into four tiles, over texture coordinates that are twice as large.
+HeightMap cutIntoTiles(const HeightMap& map) {
+    const int side = map.width / 2;
+    std::vector<HeightMap> tiles;
+    std::vector<ivec2> places;
+    for (int k = 0; k < 4; ++k) {
+        std::vector<float> texels;
+        for (int y = 0; y < side; ++y) {
+            const auto row = map.texels.begin() + std::ptrdiff_t((k / 2) * side + y) * map.width + (k % 2) * side;
+            texels.insert(texels.end(), row, row + side);
+        }
+        tiles.push_back(makeHeightMap(side, side, std::move(texels), map.mid, map.scale, Wrap::clamp));
+        places.emplace_back(k % 2, 1 - k / 2);
+    }
+    return makeTileSet(tiles, places);
+}
+
+/// Compares the three ways to look heights up, at a rate that divides the nodes of a map per face: the same heights,
+/// and tiles of as many bytes as the one map.
+int benchMaps() {
+    constexpr int kLog = 5; // of the segments of a face, and of the rate
+    TestSurface test;
+    if (!test.cage.hasTexCoords()) {
+        std::cout << fmt::format("maps: {} has no texture coordinates\n", test.path);
+        return 0;
+    }
+    Cage tiled = test.cage;
+    for (vec2& st : tiled.texCoords) st *= 2.0f;
+    const Surface surface = buildSurface(test.cage, {.isolation = 3}),
+                  tiledSurface = buildSurface(tiled, {.isolation = 3});
+    const std::vector<ivec2> segments(surface.faces.size(), ivec2(kLog));
+    const HeightMap faces = makeFaceMap(surface, segments, [&](int face, const dvec2& uv) {
+        return sampleHeight(test.map, test.reference.texture(face, uv).st).h;
+    });
+    const HeightMap tiles = cutIntoTiles(test.map);
+    Device device;
+    const std::vector<vec3>& positions = test.cage.positions;
+    const SurfaceModel byTexture(device, {.surface = &surface, .cagePositions = positions, .height = &test.map});
+    const SurfaceModel byTile(device, {.surface = &tiledSurface, .cagePositions = positions, .height = &tiles});
+    const SurfaceModel byFace(device, {.surface = &surface, .cagePositions = positions, .height = &faces});
+    EdgeRater rater(device);
+    test.options.rate = 1 << kLog;
+    const EdgeRates rates = rater.rates(byFace, test.options, {});
+    TimedDicing texture(device, byTexture, rates, NormalKind::full, "one map over texture coordinates"),
+        tile(device, byTile, rates, NormalKind::full, "four tiles of the same bytes"),
+        face(device, byFace, rates, NormalKind::full, "a map per face, on its nodes");
+    for (int round = 0; round <= kRounds; ++round)
+        for (TimedDicing* dicing : {&texture, &tile, &face}) dicing->run();
+    std::cout << fmt::format("maps: {} at rate {} on {}\n", test.path, 1 << kLog, device.traits().name);
+    printTimings({tile.vertices(), face.vertices()}, {texture.vertices()});
+    return 0;
+}
+
 /// Prints the time of a frame against the tessellated vertices per draw: DeviceTraits::tessellatedVerticesPerDraw comes
 /// from here.
 int benchSplit() {
@@ -202,7 +255,7 @@ int main(int argc, char** argv) {
         const auto runs = [&](const char* name) {
             return wanted.empty() || std::ranges::find(wanted, name) != wanted.end();
         };
-        if (runs("dice")) benchDice();
+        if (runs("dice")) benchDice(), benchMaps();
 #ifdef RELIEF_EVALUATORS
         if (runs("posing")) bench::benchPosing();
 #endif

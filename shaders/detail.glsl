@@ -22,12 +22,13 @@ const float kSampleLevel = -1.0;
 // that is not displaced; on a displaced one what its triangles are too large for. Central differences over one texel commute
 // with interpolation between texels, so they are taken once per texel, and the sampler does the rest.
 vec2 missingSlopes() {
-    vec2 slopes = inputs.model.slopeUnit * lookUp(slopeMap, kSampleLevel).rg;
+    vec2 slopes = inputs.model.slopeUnit * lookUp(slopeMap, inputs.model.slopeTiles, kSampleLevel).rg;
+    if (kHasPictureTiles) slopes *= inputs.model.slopeTiles.zw; // by s and t of the picture before
     return kHasHeight ? slopes - vec2(vGradientS.w, vGradientT.w) : slopes;
 }
 
 // The normal map at the fragment: a mean of unit normals, shorter than 1 where they differ.
-vec3 mappedNormal() { return lookUp(normalMap, 0.0).xyz; }
+vec3 mappedNormal() { return lookUp(normalMap, inputs.model.normalTiles, 0.0).xyz; }
 
 vec3 unitOrElse(vec3 m, vec3 n) { return dot(m, m) > 0.0 ? normalize(m) : n; }
 

@@ -100,7 +100,7 @@ void diceColumns(InsideTile tile, PatchPoints patchPoints) {
                 CurveWeights tw = byFaceWeights(atBoundary(curve, (textureBoundary & 1u) != 0u, (textureBoundary & 4u) != 0u), scale);
                 frames.texture = texFrameOfRows(texRows, tw);
             }
-            Leaf leaf = Leaf(tile.patchIndex, vec2(leafU, leafV), scale);
+            Leaf leaf = Leaf(tile.patchIndex, vec2(leafU, leafV), scale, tile.face);
             SurfacePoint point = surfacePointOf(frames, patchPoints, leaf, vec2(u, v), hasTexture, hasRest);
             DisplacedSample s = displacedAlone(point, mix(levelLow, levelHigh, v));
             storeVertex(vertex + (first.y + j - 1u) * (segments.x - 1u), s);
@@ -127,7 +127,7 @@ void main() {
     for (uint k = gl_LocalInvocationID.x; k < size.x * size.y; k += gl_WorkGroupSize.x) {
         uvec2 ij = first + divided(k, size.x).yx;
         vec2 uv = insidePoint(tile, ij);
-        DisplacedSample s = displacedInLeaf(patchPoints, Leaf(tile.patchIndex, scale * uv - origin, scale), uv,
+        DisplacedSample s = displacedInLeaf(patchPoints, Leaf(tile.patchIndex, scale * uv - origin, scale, tile.face), uv,
                                              faceLevel(tile.face, uv));
         uint row = halvesOf(tile.segments).x - 1u;
         storeVertex(tile.firstVertex + (ij.y - 1u) * row + ij.x - 1u, s);

@@ -26,7 +26,7 @@ void main() {
     for (uint k = 1u + gl_LocalInvocationID.x; k < n; k += gl_WorkGroupSize.x) {
         float t = sampleParameter(k, n, rate);
         vec2 uv = incidencePoint(record.owner, t);
-        DisplacedSample s = displacedInBicubic(patchPoints, Leaf(patchIndex, uv, 1.0), uv, mix(low, high, t));
+        DisplacedSample s = displacedInBicubic(patchPoints, Leaf(patchIndex, uv, 1.0, record.owner.face), uv, mix(low, high, t));
         storeVertex(firstVertex + k - 1u, s);
     }
 }

@@ -27,7 +27,7 @@ vec2 heightDerivatives(SurfacePoint point, HeightSample height) {
 #ifdef RELIEF_HEIGHT_FUNCTION
     vec2 dh = height.gradient;
 #else
-    vec2 dh = heightGradient(height.gradient, point.tex.jacobian);
+    vec2 dh = kMapAddressing == kMapOfFaces ? height.gradient : heightGradient(height.gradient, point.tex.jacobian);
 #endif
     if (kStretches) dh += height.h * point.logStretch;
     return dh;
@@ -80,7 +80,7 @@ struct DisplacedSample {
     float h;
     LimitFrame frame;
     vec3 n;          // unit limit normal of the frame
-    vec2 gradient;   // (h_s, h_t); of a height function (h_u, h_v)
+    vec2 gradient;   // (h_s, h_t); of a height function and of a map per face (h_u, h_v)
     VectorSample vector;
     mat2 jacobian;   // of the texture coordinates
     vec4 gradientS;  // kHasTexGradients: as in varyings.glsl, in the model's own space
@@ -145,7 +145,7 @@ Displacement displacementAt(SurfacePoint point, float level) {
 #ifdef RELIEF_HEIGHT_FUNCTION
     d.height = sampleFunction(point.rest, point.tex);
 #else
-    d = lookUp(point.tex.st, level);
+    d = lookUp(MapPlace(point.face, point.uv, point.tex.st), level);
 #endif
     if (kStretches) {
         precise float h = point.stretch * d.height.h;

@@ -15,10 +15,11 @@ void main() {
     vec2 last = vec2(0), lower = vec2(1e30), upper = vec2(-1e30);
     for (uint k = 0u; k <= pieces; ++k) {
         vec2 uv = incidencePoint(owner, float(k) / float(pieces));
-        vec2 st = displaced(owner.face, uv, insideLocation(owner.face, uv)).st, at = st * vec2(inputs.model.maps[0].size);
+        vec2 st = displaced(owner.face, uv, insideLocation(owner.face, uv)).st, size = texelsAt(st), at = st * size;
         lower = min(lower, st);
         upper = max(upper, st);
-        if (k > 0u) texels += length(at - last);
+        if (kMapAddressing == kMapOfTiles) at = st; // tiles differ in size
+        if (k > 0u) texels += kMapAddressing == kMapOfTiles ? length((at - last) * size) : length(at - last);
         last = at;
     }
     float words[kFootprintFloats] = {texels, lower.x, lower.y, upper.x, upper.y};

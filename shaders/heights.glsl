@@ -1,39 +1,18 @@
-// Heights from the map: h(s,t) with central differences, between mip levels.
+// Heights from maps: h with central differences, between mip levels.
 #ifndef RELIEF_HEIGHTS_GLSL
 #define RELIEF_HEIGHTS_GLSL
 
-#include "inputs.glsl"
+#include "map_parts.glsl"
 
+layout(constant_id = kIdReadsNodes) const bool kReadsNodes = false; // maps per face: every sample lies on a node of its level
 layout(constant_id = kIdMapFormat) const uint kMapFormat = kMapReal; // kMap...
-
-// Words are fetched in pairs, for neighbouring texels of small formats lie in the same one.
-RELIEF_TABLE(kBindHeight, uvec2, wordsAt)
 
 struct HeightSample {
     float h;
-    vec2 gradient;  // (h_s, h_t)
+    vec2 gradient;  // (h_s, h_t); of a map per face (h_u, h_v)
 };
 
-// The record of the map that holds (s,t).
-uint mapAt(vec2 st) { return 0u; }
-
-// The columns or rows first - 1 to first + 2 of a map level of that size.
-ivec4 wrapped(int first, int size, bool repeats) {
-    if (!repeats) return clamp(first + ivec4(-1, 0, 1, 2), 0, size - 1);
-    // The first one falls anywhere, each of the others is the next one or 0: of a level may be a single one.
-    ivec4 at = ivec4(first - 1 - size * int(floor(float(first - 1) / float(size))));
-    at.y = at.x + 1 == size ? 0 : at.x + 1;
-    at.z = at.y + 1 == size ? 0 : at.y + 1;
-    at.w = at.z + 1 == size ? 0 : at.z + 1;
-    return at;
-}
-
 // Texels are fetched and weighed here, not by the sampler, whose fractions are 8 bits on many devices: stairs in h_s.
-
-uint heightWord(int i) {
-    uvec2 words = wordsAt(uint(i >> 1));
-    return (i & 1) == 0 ? words.x : words.y;
-}
 
 // Code i of a block, and the number that it stands for.
 float blockNumber(uint word0, uint word1, int i) {
@@ -60,22 +39,21 @@ float texel(int first, int i) {
     return kMapFormat == kMapHalf ? unpackHalf2x16(number).x : float(number);
 }
 
+// --- heights ----------------------------------------------------------------------------------------------------------
+
 // h bilinear; h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel (Marschner, CS 569), h_t likewise: twelve texels, of
-// which the four around the point serve both. t points up, rows go down.
-HeightSample sampleLevel(uint map, vec2 st, uint number) {
-    ivec2 size = max(inputs.model.maps[map].size >> int(number), 1);
-    int first = int(inputs.model.maps[map].firstWords[number]);
-    precise vec2 x = vec2(st.x, 1.0 - st.y) * vec2(size) - 0.5;
-    vec2 whole = floor(x);
-    vec2 f = x - whole;
-    bool repeats = inputs.model.maps[map].repeats != 0u;
-    ivec4 c = wrapped(int(whole.x), size.x, repeats), r = wrapped(int(whole.y), size.y, repeats);
+// which the four around the point serve both.
+HeightSample sampleLevel(MapPart part, uint number) {
+    int first = firstOfLevel(part, number);
+    MapTexels t = texelsAround(part, number);
+    ivec4 c = t.columns, r = t.rows;
+    vec2 f = t.f;
     // What columns and rows add to the number of a texel.
-    if (mapIsInBlocks(kMapFormat, size)) {
+    if (mapIsInBlocks(kMapFormat, t.stored)) {
         c = (c >> 2) * 16 + (c & 3);
-        r = (r >> 2) * (((size.x + 3) >> 2) * 16) + (r & 3) * 4;
+        r = (r >> 2) * (((t.stored.x + 3) >> 2) * 16) + (r & 3) * 4;
     } else {
-        r *= size.x;
+        r *= t.stored.x;
     }
     ivec4 i = c + r.y, j = c + r.z;
     vec4 below = vec4(texel(first, i.x), texel(first, i.y), texel(first, i.z), texel(first, i.w));
@@ -88,14 +66,32 @@ HeightSample sampleLevel(uint map, vec2 st, uint number) {
     precise float row1 = mix(above.y, above.z, f.x), rowHigh = mix(high.x, high.y, f.x);
     precise float across0 = mix(below.z, below.w, f.x) - mix(below.x, below.y, f.x);
     precise float across1 = mix(above.z, above.w, f.x) - mix(above.x, above.y, f.x);
-    precise float down = mix(row1, rowHigh, f.y) - mix(rowLow, row0, f.y);
+    precise float along = mix(row1, rowHigh, f.y) - mix(rowLow, row0, f.y);
 
     HeightSample s;
-    s.h = inputs.model.maps[map].scale * (mix(row0, row1, f.y) - inputs.model.maps[map].mid);
-    vec2 perUnit = 0.5 * inputs.model.maps[map].scale * vec2(size);
-    s.gradient = vec2(mix(across0, across1, f.y), -down) * perUnit;
+    s.h = inputs.model.maps[part.map].scale * (mix(row0, row1, f.y) - inputs.model.maps[part.map].mid);
+    vec2 perUnit = 0.5 * inputs.model.maps[part.map].scale * t.perUnit;
+    s.gradient = vec2(mix(across0, across1, f.y), along) * perUnit;
     return s;
 }
+
+#ifndef RELIEF_STORAGE_TABLES
+// What sampleLevel() gives at a node: the node itself and the four beside it.
+HeightSample sampleNode(MapPart part, uint number) {
+    int first = firstOfLevel(part, number);
+    ivec2 segments = ivec2(1) << max(part.size - int(number), 0);
+    ivec2 node = ivec2(part.at * vec2(segments) + 0.5) + kFaceApron, stored = segments + 1 + 2 * kFaceApron;
+    int blockRow = ((stored.x + 3) >> 2) * 16;
+    ivec3 c = node.x + ivec3(-1, 0, 1), r = node.y + ivec3(-1, 0, 1);
+    bool isInBlocks = kMapFormat == kMapBc4; // sizes are odd
+    if (isInBlocks) c = (c >> 2) * 16 + (c & 3), r = (r >> 2) * blockRow + (r & 3) * 4;
+    else r *= stored.x;
+    float scale = inputs.model.maps[part.map].scale;
+    precise float h = scale * (texel(first, c.y + r.y) - inputs.model.maps[part.map].mid);
+    vec2 difference = vec2(texel(first, c.z + r.y) - texel(first, c.x + r.y), texel(first, c.y + r.z) - texel(first, c.y + r.x));
+    return HeightSample(h, 0.5 * scale * vec2(segments) * difference);
+}
+#endif
 
 #ifdef RELIEF_HEIGHT_FUNCTION
 #include "function.glsl"
@@ -103,9 +99,9 @@ HeightSample sampleLevel(uint map, vec2 st, uint number) {
 
 // Between two levels of the map. Both are always read, one after the other and not in a loop: a processor then waits for the
 // memory of both at once. SwiftShader, which reads tables from storage buffers, takes minutes to compile that; it gets the loop.
-HeightSample betweenLevels(uint map, vec2 st, float level) {
-    if (!kHasMips) return sampleLevel(map, st, 0u);
-    float last = float(inputs.model.maps[map].levelCount - 1u);
+HeightSample betweenLevels(MapPart part, float level) {
+    if (!kHasMips) return sampleLevel(part, 0u);
+    float last = float(lastLevel(part));
     level = clamp(level, 0.0, last);
     float lower = floor(level);
     precise float f = level - lower;
@@ -113,14 +109,14 @@ HeightSample betweenLevels(uint map, vec2 st, float level) {
     HeightSample s = HeightSample(0.0, vec2(0));
     for (uint i = 0u; i < (f > 0.0 ? 2u : 1u); ++i) {
         precise float weight = i == 0u ? 1.0 - f : f;
-        HeightSample one = sampleLevel(map, st, uint(lower) + i);
+        HeightSample one = sampleLevel(part, uint(lower) + i);
         precise float h = s.h + weight * one.h;
         s.h = h;
         s.gradient += weight * one.gradient;
     }
     return s;
 #else
-    HeightSample fine = sampleLevel(map, st, uint(lower)), coarse = sampleLevel(map, st, uint(min(lower + 1.0, last)));
+    HeightSample fine = sampleLevel(part, uint(lower)), coarse = sampleLevel(part, uint(min(lower + 1.0, last)));
     precise float h = (1.0 - f) * fine.h + f * coarse.h;
     return HeightSample(h, (1.0 - f) * fine.gradient + f * coarse.gradient);
 #endif

@@ -21,6 +21,7 @@ layout(constant_id = kIdReadsRest) const bool kReadsRest = false; // heights dep
 #define kReadsRest kStretches
 #endif
 layout(constant_id = kIdVectorSpace) const uint kVectorSpace = kVectorNone;
+layout(constant_id = kIdMapAddressing) const uint kMapAddressing = kMapOfTexture; // of shared/maps.h
 layout(constant_id = kIdHasWideIndices) const bool kHasWideIndices = false;
 layout(constant_id = kIdHasTexGradients) const bool kHasTexGradients = false;
 layout(constant_id = kIdPass) const uint kPass = kPassSurface;

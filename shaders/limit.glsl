@@ -28,7 +28,9 @@ layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false; // s
 
 // Where this is false all that evaluates texture coordinates folds away when a pipeline is made. A function, for Mesa 22.3's
 // CPU driver makes no pipeline of a constant that is computed from specialization constants.
-bool readsTexCoords() { return kHasTexCoords && (kHasHeight || kWantsTexCoords || kHasTexGradients); }
+bool readsTexCoords() {
+    return kHasTexCoords && ((kHasHeight && kMapAddressing != kMapOfFaces) || kWantsTexCoords || kHasTexGradients);
+}
 
 layout(constant_id = kIdGenericBasis) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
 
@@ -48,11 +50,12 @@ struct Leaf {
     uint patchIndex;
     vec2 uv;        // local to the patch, 0..1
     float scale;    // d(local)/d(face): a power of two, negative in a turned triangle
+    uint face;      // that the leaf belongs to
 };
 
 // Halving is exact in floating point, so all faces that name a point the same way arrive at the same local (u,v).
 Leaf findLeaf(uint face, vec2 uv) {
-    Leaf leaf = Leaf(0u, uv, 1.0);
+    Leaf leaf = Leaf(0u, uv, 1.0, face);
     uint entry = faceRoot(face);
     while ((entry & kLeafBit) == 0u) {
 #ifdef RELIEF_TRIANGLES

@@ -7,6 +7,8 @@
 
 // A point of the limit surface, not displaced yet.
 struct SurfacePoint {
+    uint face;
+    vec2 uv;
     LimitFrame frame;
     TexFrame tex;
     vec3 texSecond;  // vector maps of tangent space: t_uu, t_uv and t_vv
@@ -109,6 +111,8 @@ bool readsRest() { return kReadsRest && (kHasHeight || kHasTexGradients); }
 
 SurfacePoint surfacePointOf(PointFrames frames, PatchPoints patchPoints, Leaf leaf, vec2 uv, bool hasTexture, bool hasRest) {
     SurfacePoint point;
+    point.face = leaf.face;
+    point.uv = uv;
     point.frame = frames.surface;
     point.tex = TexFrame(uv, mat2(1.0));
     if (hasTexture) point.tex = TexFrame(frames.texture.p.xy, mat2(frames.texture.pu.xy, frames.texture.pv.xy));

@@ -32,7 +32,7 @@ vec3 faceColor(uint face) {
 
 vec3 albedo() {
     vec3 c = inputs.material.albedo;
-    return kHasAlbedoMap ? c * lookUp(albedoMap, 0.0).rgb : c;
+    return kHasAlbedoMap ? c * lookUp(albedoMap, inputs.model.albedoTiles, 0.0).rgb : c;
 }
 
 vec3 techniqueColor() {

@@ -18,11 +18,20 @@ struct Displacement {
 };
 
 // The lookups of a map of heights, or of three components, at a point. One lookup in a loop, for compilers unfold every one.
-Displacement lookUp(vec2 st, float level) {
+// kReadsNodes: all samples lie on nodes of one level.
+Displacement lookUp(MapPlace place, float level) {
     Displacement d;
+    MapPart part = partAt(place);
+#ifndef RELIEF_STORAGE_TABLES
+    if (kReadsNodes) {
+        d.height = sampleNode(part, kHasMips ? min(uint(level + 0.5), lastLevel(part)) : 0u);
+        return d;
+    }
+#endif
     if (kVectorSpace != kVectorNone) d.vector = VectorSample(vec3(0), mat2x3(0.0));
     for (uint k = 0u; k < (kVectorSpace == kVectorNone ? 1u : 3u); ++k) {
-        HeightSample one = betweenLevels(mapAt(st) + k, st, level);
+        if (kVectorSpace != kVectorNone) part.map = k;
+        HeightSample one = betweenLevels(part, level);
         d.height = one;
         if (kVectorSpace == kVectorNone) continue;
         vec3 axis = vec3(k == 0u, k == 1u, k == 2u);
@@ -30,6 +39,7 @@ Displacement lookUp(vec2 st, float level) {
         d.vector.dc[0] += one.gradient.x * axis;
         d.vector.dc[1] += one.gradient.y * axis;
     }
+    if (kMapAddressing == kMapOfTiles && !part.isThere) d.height = HeightSample(0.0, vec2(0));
     return d;
 }
 

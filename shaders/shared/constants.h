@@ -41,8 +41,11 @@ RELIEF_CONSTANT uint kIdReadsShadowCodes = 28u;   // light: the shadow map is th
 RELIEF_CONSTANT uint kIdShading = 29u;            // kShading...
 RELIEF_CONSTANT uint kIdAddsLight = 30u;          // light: adds one more light to the picture, which has all else
 RELIEF_CONSTANT uint kIdHasOcclusion = 31u;       // light: occlusion.comp has run
-RELIEF_CONSTANT uint kIdVectorSpace = 32u;        // kVector...
-RELIEF_CONSTANT uint kIdCount = 33u;
+RELIEF_CONSTANT uint kIdMapAddressing = 32u;      // kMapOf... of shared/maps.h
+RELIEF_CONSTANT uint kIdReadsNodes = 33u;         // every sample lies on a node of a map per face, see heights.glsl
+RELIEF_CONSTANT uint kIdHasPictureTiles = 34u;    // pictures cover more than the unit square, see lookup.glsl
+RELIEF_CONSTANT uint kIdVectorSpace = 35u;        // kVector...
+RELIEF_CONSTANT uint kIdCount = 36u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

@@ -34,6 +34,9 @@ struct ModelTables {
     float heightTimeBefore; // height functions: time of the frame that motion is measured from, seconds
     float heightUnit;       // height functions: cage units per unit of positions
     float heightStep;       // height functions: distance of differences to either side, in units of positions
+    vec4 albedoTiles;       // what pictures cover, see lookup.glsl
+    vec4 slopeTiles;
+    vec4 normalTiles;
     MapRecord maps[kMostMaps];
 };
 
@@ -61,20 +64,21 @@ struct View {
 struct Light {
     vec3 keyDirection; // towards the light, unit
     vec3 keyRadiance;
-    vec3 irradiance[9];   // the environment's spherical harmonics, convolved with the cosine lobe
-    mat4 toShadow;        // from positions to the clip space of the shadow map
-    float hasShadows;     // 1 or 0
-    float shadowBias;     // along the normal, world units
-    float shadowSoftness; // radius of the filter, as a fraction of the shadow map
-    uint shadowSide;      // texels
-    vec4 phong;           // k_a, k_d, k_s and the exponent of Hart, eq. 16.20
+    vec3 irradiance[9];    // the environment's spherical harmonics, convolved with the cosine lobe
+    mat4 toShadow;         // from positions to the clip space of the shadow map
+    float hasShadows;      // 1 or 0
+    float shadowBias;      // along the normal, world units
+    float shadowSoftness;  // radius of the filter, as a fraction of the shadow map
+    uint shadowSide;       // texels
+    vec4 phong;            // k_a, k_d, k_s and the exponent of Hart, eq. 16.20
     float occlusionRadius; // world units
 };
 
 struct Material {
     vec3 albedo; // linear; times the albedo map where there is one
     float roughness;
-    float environmentLevel; // of the environment map for this roughness; kShadingPhysical: a whole number, one level is read
+    float environmentLevel; // of the environment map for this roughness; kShadingPhysical: a whole number, one level is
+                            // read
     float metallic;         // kShadingConserving
 };
 
@@ -101,16 +105,16 @@ struct Targets {
     RELIEF_ADDRESS(Pairs) dicedTexCoords;
     RELIEF_ADDRESS(Vectors) dicedTexGradients; // as kBindMeshTexGradients
     RELIEF_ADDRESS(Words) dicedIndices;
-    RELIEF_ADDRESS(Floats) layers;        // layers.comp: kLayerChannels floats per pixel
-    RELIEF_ADDRESS(Materials) materials;  // light.comp with kHasInstances: one per instance
-    RELIEF_ADDRESS(WordQuads) screen;     // as kBindScreen
-    RELIEF_ADDRESS(WordPairs) samples;    // as kBindSamples
+    RELIEF_ADDRESS(Floats) layers;          // layers.comp: kLayerChannels floats per pixel
+    RELIEF_ADDRESS(Materials) materials;    // light.comp with kHasInstances: one per instance
+    RELIEF_ADDRESS(WordQuads) screen;       // as kBindScreen
+    RELIEF_ADDRESS(WordPairs) samples;      // as kBindSamples
     RELIEF_ADDRESS(WordPairs) sampleColors; // as kBindSampleColors
-    RELIEF_ADDRESS(Words) sampleInstances; // as kBindSampleInstances
-    RELIEF_ADDRESS(Words) shadow;         // as kBindShadowCodes
-    RELIEF_ADDRESS(Words) crossings;      // kPassCracks: front faces less back faces per pixel
-    RELIEF_ADDRESS(Words) largeTriangles; // kLarge...
-    RELIEF_ADDRESS(Floats) occlusion;     // occlusion.comp: the share of the environment that arrives, per pixel
+    RELIEF_ADDRESS(Words) sampleInstances;  // as kBindSampleInstances
+    RELIEF_ADDRESS(Words) shadow;           // as kBindShadowCodes
+    RELIEF_ADDRESS(Words) crossings;        // kPassCracks: front faces less back faces per pixel
+    RELIEF_ADDRESS(Words) largeTriangles;   // kLarge...
+    RELIEF_ADDRESS(Floats) occlusion;       // occlusion.comp: the share of the environment that arrives, per pixel
 };
 
 struct PassInputs {
@@ -123,7 +127,7 @@ struct PassInputs {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(ModelTables) == 18 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
+static_assert(sizeof(ModelTables) == 30 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
 static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16 + 20);
 static_assert(sizeof(Material) == 24 && sizeof(Targets) == 19 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));

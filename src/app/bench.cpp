@@ -63,6 +63,9 @@ std::vector<TestScene> loadScenes(const BenchArgs& args) {
     LoadedObject loaded = load(args.object, CageState::posed, makeWarn(args.isQuiet));
     if (loaded.dense)
         fail(Failure::usage, "{}: only a subdivision surface is measured; name its --scheme", args.object.cage);
+    if (loaded.height->addressing != Addressing::texture)
+        fail(Failure::usage, "{}: maps of one file over the unit square are measured, no sets of tiles",
+             args.object.height.path);
     const std::string name = std::filesystem::path(args.object.cage).stem().string();
     return {
         {name, std::move(loaded.cage), loaded.options, std::move(*loaded.height), std::move(loaded.heightEncoding)}};

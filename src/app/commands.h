@@ -20,6 +20,7 @@ Run addDoctor(CLI::App& app);
 Run addBench(CLI::App& app);
 Run addNormalMap(CLI::App& app);
 Run addHeightMap(CLI::App& app);
+Run addMap(CLI::App& app);
 Run addBake(CLI::App& app);
 Run addEnvironment(CLI::App& app);
 Run addMatcap(CLI::App& app);

@@ -123,7 +123,45 @@ json describeTexels(const std::string& path, const ImageInfo& info) {
     return {{"ranges", ranges}, {"voids", voids}, {"not_finite", notFinite}};
 }
 
+/// The files of a set of tiles.
+json describeTiles(const std::string& path) {
+    const TilePattern pattern = *findTilePattern(path);
+    json tiles = json::array(), names = json::array();
+    std::uint64_t bytes = 0;
+    for (const TileFile& file : listTiles(path)) {
+        const ImageInfo info = readImageInfo(file.path);
+        const MapFormat format = fileFormat(info);
+        bytes += mapBytes(format, info.width, info.height);
+        names.push_back(nameTile(pattern, file.place));
+        tiles.push_back({{"tile", names.back()},
+                         {"file", file.path},
+                         {"width", info.width},
+                         {"height", info.height},
+                         {"sample", info.sample},
+                         {"channels", info.channelNames}});
+    }
+    return {
+        {"file", path}, {"kind", "set of tiles"}, {"tile_count", tiles.size()}, {"tiles", tiles}, {"map_bytes", bytes}};
+}
+
+/// What the header of a map per face says.
+json describeFaces(const ImageInfo& info, const std::string& path) {
+    const FaceMapInfo faces = readFaceMapInfo(info, path);
+    ivec2 lowest(faces.segments.front()), highest(lowest);
+    std::uint64_t heights = 0;
+    for (const ivec2& segments : faces.segments) {
+        lowest = glm::min(lowest, segments), highest = glm::max(highest, segments);
+        heights += std::uint64_t((1 << segments.x) + 1) * std::uint64_t((1 << segments.y) + 1);
+    }
+    return {{"map_per_face", true},
+            {"map_faces", faces.segments.size()},
+            {"map_heights", heights},
+            {"map_segments_per_side", {1 << std::min(lowest.x, lowest.y), 1 << std::max(highest.x, highest.y)}},
+            {"map_topology", fmt::format("{:016x}", faces.topology)}};
+}
+
 json describePicture(const std::string& path) {
+    if (findTilePattern(path)) return describeTiles(path);
     const ImageInfo info = readImageInfo(path);
     const MapFormat format = fileFormat(info);
     const std::vector<std::string> layers = layersOf(info);
@@ -139,6 +177,7 @@ json describePicture(const std::string& path) {
                 {"default_mid", info.hasUnit() ? 0.0 : 0.5},
                 {"map_format", wordOf(kMapFormats, format)},
                 {"map_bytes", mapBytes(format, info.width, info.height)}};
+    if (isFaceMap(info)) result.update(describeFaces(info, path));
     if (info.noData) result["no_data"] = fmt::format("{}", *info.noData);
     result.update(describeTexels(path, info));
     return result;

@@ -41,6 +41,7 @@ constexpr Command kCommands[] = {
     {"doctor", "find what is wrong with height maps on a cage, and how other renderers show them", app::addDoctor},
     {"normal-map", "make a normal map of a height map", app::addNormalMap},
     {"height-map", "make a height map of a normal map", app::addHeightMap},
+    {"map", "make a map per face of a height map, or the other way round", app::addMap},
     {"bake", "make a height map of a sculpt over a cage, with a certificate", app::addBake},
     {"environment", "turn a picture of an environment into another shape, or blur it", app::addEnvironment},
     {"matcap", "draw a ball of a material in light, for --shading matcap", app::addMatcap},

@@ -60,6 +60,8 @@ int makeNormalMapFile(const NormalMapArgs& args) {
                                 .wrap = args.wrap,
                                 .limits = {}};
     const HeightMap heights = loadHeightMap(args.source, options, makeWarn(args.isQuiet)).decoded;
+    if (heights.addressing != Addressing::texture)
+        fail(Failure::usage, "{}: normals are made of one map over the unit square, not of tiles", args.source);
     const MapSize size = args.size.value_or(computeMapSize(heights.width, heights.height));
     const NormalMap normals = computeNormalMap(heights, size);
     writeImage(args.target, toCodes(normals, args.y), sample);

@@ -24,7 +24,11 @@ void addWeld(CLI::App& app, std::optional<Distance>& weld) {
 
 void addHeights(CLI::App& app, HeightDesc& height) {
     const char* group = "height";
-    listIn(group, "MAP", app.add_option("--height", height.path, "height map: .exr .tif .png .hdr .jpg"));
+    listIn(group, "MAP",
+           app.add_option(
+               "--height", height.path,
+               "height map: .exr .tif .png .hdr .jpg; a name with <UDIM>, %(UDIM)d, <uvtile> or <UVTILE> is a set of "
+               "tiles, and what relief map writes a map per face"));
     addHeightValues(app, height);
     listIn(group, "WRAP",
            addEnum(app, "--wrap", height.wrap, kWraps,

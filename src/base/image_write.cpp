@@ -41,9 +41,15 @@ void encode(const std::string& path, const Image& image, const ImageEncoding& en
 
 void writeImage(const std::string& path, const Image& image, SampleType sample, const std::string& compression) {
     const std::string format = chooseFormat(path, sample);
-    if (format != "png") return encode(path, image, {format, sample, {}, compression});
+    if (format != "png") return encode(path, image, {format, sample, {}, compression, {}});
     checkShape(path, image);
     writeFile(path, encodePng(path, image, sample));
+}
+
+void writeImage(const std::string& path, const Image& image, SampleType sample, const ImageAttributes& attributes) {
+    const std::string format = chooseFormat(path, sample);
+    if (format != "openexr") fail(Failure::usage, "{}: this picture has text in its header; write .exr", path);
+    encode(path, image, {format, sample, {}, "", attributes});
 }
 
 void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels) {
@@ -51,7 +57,7 @@ void writeImage(const std::string& path, const Image& image, const std::vector<I
     if (format != "openexr") fail(Failure::usage, "{}: channels of their own names are written as .exr", path);
     if (channels.size() != std::size_t(image.channels))
         fail(Failure::internal, "{}: {} names for {} channels", path, channels.size(), image.channels);
-    encode(path, image, {format, SampleType::real, channels, ""});
+    encode(path, image, {format, SampleType::real, channels, "", {}});
 }
 
 } // namespace relief

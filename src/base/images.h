@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,10 @@ struct ImagePart {
     std::vector<std::string> channelNames;
 };
 
+/// Text that relief writes into the header of an EXR, by its name, which begins with kAttributePrefix.
+using ImageAttributes = std::map<std::string, std::string>;
+inline constexpr std::string_view kAttributePrefix = "relief:";
+
 /// The header of an image file. All but `parts` describes the first part.
 struct ImageInfo {
     int width = 0, height = 0, channels = 0;
@@ -46,6 +51,7 @@ struct ImageInfo {
     std::string colorTag;         ///< what in the file says that its numbers are colors, for messages: "sRGB"; else ""
     std::vector<std::string> channelNames;
     std::vector<ImagePart> parts; ///< at least the first one; only pages of its size
+    ImageAttributes attributes;   ///< of an EXR: what relief has written into it
 
     /// True for samples whose texels are numbers with a unit of their own: 0 means no height.
     [[nodiscard]] bool hasUnit() const { return isFloat || isSigned; }
@@ -121,6 +127,9 @@ enum class SampleType { uint8, uint16, half, real };
 /// has one. Throws Failure::usage for an unknown extension or a sample type that the format does not have,
 /// Failure::file when writing fails.
 void writeImage(const std::string& path, const Image& image, SampleType sample, const std::string& compression = "");
+
+/// Writes a .exr with text in its header. Throws as the other writeImage does.
+void writeImage(const std::string& path, const Image& image, SampleType sample, const ImageAttributes& attributes);
 
 /// One channel of an EXR: its name, which may hold the layer's ("N.X"), and half or real samples.
 struct ImageChannel {

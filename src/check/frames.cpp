@@ -43,7 +43,9 @@ void checkDisplacement(SampleError& error, const DisplacedFrame& frame, const Sa
     error.isMisplaced = !(distance <= kPoint * with.diagonal + kShareOfHeight * std::abs(h));
 
     // h_u = h_s s_u + h_t t_u, and h_v likewise.
-    const dvec2 slope(r.gradient), stu = frame.tex.jacobian[0], stv = frame.tex.jacobian[1];
+    const bool isPerFace = with.height != nullptr && with.height->addressing == Addressing::faces; // slopes by u and v
+    const dmat2 jacobian = isPerFace ? dmat2(1) : frame.tex.jacobian;
+    const dvec2 slope(r.gradient), stu = jacobian[0], stv = jacobian[1];
     const dvec2 dh = isFunction ? dvec2(frame.height.hs, frame.height.ht)
                                 : dvec2(slope.x * stu.x + slope.y * stu.y, slope.x * stv.x + slope.y * stv.y);
     const DisplacedNormals normals = computeDisplacedNormals(frame.limit, h, dh);

@@ -140,7 +140,8 @@ SeamReport reportSeams(const Surface& surface, const ReferenceSurface& reference
     const auto heightsAt = [&](std::span<const FacePoint> points) {
         std::vector<double> heights;
         heights.reserve(points.size());
-        for (const auto& [face, uv] : points) heights.push_back(sampleHeight(map, reference.texture(face, uv).st).h);
+        for (const auto& [face, uv] : points)
+            heights.push_back(sampleHeight(map, {.face = face, .uv = uv, .st = reference.texture(face, uv).st}).h);
         return heights;
     };
     const auto texels = [&](const dvec2& st) {

@@ -152,11 +152,12 @@ DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* 
     }
     // The limit surface, and the height by the map alone.
     DisplacedFrame frame = frameWithoutHeight(surface, face, uv);
-    if (map != nullptr) frame.height = sampleHeight(*map, frame.tex.st);
+    if (map != nullptr) frame.height = sampleHeight(*map, {.face = face, .uv = uv, .st = frame.tex.st});
+    const bool isPerFace = map != nullptr && map->addressing == Addressing::faces;
 
     DualNumber stretch{1};
     if (rest != nullptr) stretch = stretchAt(*rest, surface, face, uv);
-    const DualNumber height = stretch * heightOver(frame.tex, frame.height);
+    const DualNumber height = stretch * heightOver(isPerFace ? TexFrame{} : frame.tex, frame.height);
     frame.height.h *= stretch.value, frame.height.hs *= stretch.value, frame.height.ht *= stretch.value;
     displace(frame, height);
     return frame;

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 
 #include "base/base.h"
 #include "displacement/height_census.h"
+#include "displacement/map_tiles.h"
 #include "displacement/normal_map.h"
 #include "shared/maps.h"
 #include "surface/surface.h"
@@ -32,10 +34,29 @@ struct HeightMap {
     /// Not null: the surface is displaced by these vectors, and the texels are their lengths in cage units.
     std::shared_ptr<const VectorMap> vectors{};
 
+    Addressing addressing = Addressing::texture;
+    std::vector<MapTile> tiles; ///< of sets, by rows of unit squares or by faces; texels are those of all tiles then,
+                                ///< and width and height those of the largest one
+    std::shared_ptr<const FaceLinks> links; ///< of a map per face, once fitToFaces() has fitted it to a surface
+    std::uint64_t topology = 0;             ///< hashTopology() of the cage that a map per face was made for
+
     /// Largest |h| in cage units.
     [[nodiscard]] double heightBound() const;
     [[nodiscard]] std::uint64_t byteCount() const { return texels.size() * sizeof(float); }
 };
+
+/// Makes a set of maps over unit squares of texture coordinates, in any order: they share mid and scale. `places` are
+/// MapTile::place.
+HeightMap makeTileSet(std::span<const HeightMap> maps, std::span<const ivec2> places);
+
+/// Makes a map per face: `segments` per face are MapTile::segments, and `heightAt` is called for each of its nodes.
+/// Heights on edges and in corners are those of their owners. Throws as linkFaces does.
+HeightMap makeFaceMap(const Surface& surface, std::span<const ivec2> segments,
+                      const std::function<double(int face, const dvec2& uv)>& heightAt);
+
+/// Gives the edges and corners of a map per face the heights of their owners, and its tiles what faces across their
+/// sides show. Throws Failure::input for another number of faces, and as linkFaces does.
+void fitToFaces(HeightMap& map, const Surface& surface);
 
 /// Makes a map of values in memory.
 /// Throws Failure::input for a size that does not fit `texels` and for values that are not finite, Failure::usage for a
@@ -49,7 +70,18 @@ struct HeightSample {
 
 /// Looks the map up in double precision: h_s = (h(s+d,t) - h(s-d,t)) / 2d with d one texel, h_t likewise (Marschner,
 /// CS 569 notes).
+/// Of a map per face these are the height and its derivatives by u and v.
+HeightSample sampleHeight(const HeightMap& map, const MapPlace& place);
+/// The same of a map that goes by texture coordinates.
 HeightSample sampleHeight(const HeightMap& map, const dvec2& st);
+
+/// Makes one map of a set of tiles, over all unit squares that it spans: each as many texels as the largest tile, or as
+/// many as keep it 16384 texels a side at most. Without a tile there is no height.
+struct JoinedMap {
+    HeightMap map; ///< over its own unit square
+    PictureTiles tiles;
+};
+JoinedMap joinTiles(const HeightMap& set);
 
 /// The slopes of a height map at each of its texels and those of its mips, down to a single texel: central differences
 /// over one texel of the level, so that bilinear lookups of them are those of sampleHeight().
@@ -104,8 +136,8 @@ EncodedMap encode(const HeightMap& map, MapFormat format);
 /// what there is. Texels that are not in BC4 blocks are in rows: the device gets them in blocks where it reads blocks.
 struct MapWords {
     std::vector<std::uint32_t> words;
-    std::vector<std::uint32_t> firsts; ///< first word of each level
-    std::vector<ivec2> sizes;          ///< texels of each level
+    std::vector<std::uint32_t> firsts; ///< first word of each level, of sets of each level of each tile
+    std::vector<ivec2> sizes;          ///< of what is stored of each level, aprons included
     double mid = 0, scale = 0;         ///< h = scale * (number - mid) of the numbers that the words hold
     float roundOff = 0;                ///< largest difference of a mip's texel from the mean that it stands for
 };
@@ -113,6 +145,7 @@ MapWords toWords(const HeightMap& decoded, const MapEncoding& encoding = {});
 
 /// Bytes of a map's words, computed without making them.
 std::uint64_t mapBytes(MapFormat format, int width, int height);
+std::uint64_t mapBytes(MapFormat format, const HeightMap& map);
 
 /// Encodes 16 values 0..1, row after row, as 8 bytes (Khronos Data Format Specification 1.3, section 20.3, "BC4
 /// unsigned").
@@ -130,12 +163,28 @@ struct HeightOptions {
     ImageLimits limits;
 };
 
-/// Reads one channel of an image as raw data. Voids (HeightCensus) are filled smoothly from the heights around them.
-/// Warns of 8-bit sources (stairs), of unsigned integer sources without a scale, of voids, and of a channel that is not
-/// named where the file has layers.
-/// Throws as readImage does, and Failure::input for a missing channel, a texel that is not finite or a map of voids
-/// only.
+/// Reads one channel of an image as raw data; of all files of a set where `path` is a TilePattern; or a map per face,
+/// which fitToFaces() fits to its surface, and encode() stores, afterwards. Voids (HeightCensus) are filled smoothly
+/// from the heights around them. Warns of 8-bit sources (stairs), of unsigned integer sources without a scale, of
+/// voids, and of a channel that is not named where the file has layers. Throws as readImage does, and Failure::input
+/// for a missing channel, a texel that is not finite, a map of voids only and a set whose files differ in their
+/// channels, and as listTiles; Failure::device for a set larger than memory.
 EncodedMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn = warnOnStderr);
+
+/// Whether a file holds a map per face: saveFaceMap() has written it.
+bool isFaceMap(const ImageInfo& info);
+
+/// What is known of a map per face without its texels.
+struct FaceMapInfo {
+    std::vector<ivec2> segments; ///< per face: MapTile::segments
+    std::uint64_t topology = 0;  ///< hashTopology() of its cage
+};
+/// Throws Failure::input for a header that is none. `name` stands for the file in messages.
+FaceMapInfo readFaceMapInfo(const ImageInfo& info, const std::string& name);
+
+/// Writes a map per face as one .exr of packed tiles, with its layout and HeightMap::topology in the header: heights in
+/// cage units. Throws as writeImage does.
+void saveFaceMap(const std::string& path, const HeightMap& map);
 
 // --- the displaced surface ----------------------------------------------------------------------------------------
 

@@ -1,3 +1,4 @@
+#include "displacement/tile_set.h"
 #include "displacement/voids.h"
 
 #include <algorithm>
@@ -46,17 +47,8 @@ HeightMap finishMap(HeightMap map, const std::string& name) {
     if (!std::isfinite(map.scale))
         fail(Failure::usage, "{}: the height map's scale is {}; give a number", name, map.scale);
     checkFinite(map, name);
-    const auto [lowest, highest] = std::minmax_element(map.texels.begin(), map.texels.end());
-    map.lowest = *lowest;
-    map.highest = *highest;
+    findRange(map);
     return map;
-}
-
-void warnAbout(const ImageInfo& info, const std::string& path, const HeightOptions& options, const Warn& warn) {
-    if (info.sampleBytes == 1) warn(fmt::format("{}: 8-bit heights show as stairs; use 16 bits or float", path));
-    if (!info.hasUnit() && !options.scale)
-        warn(fmt::format(
-            "{}: integer heights have no unit and no scale is given; 1 is used, the map spans one cage unit", path));
 }
 
 /// Names with commas between them, and how many more there are.
@@ -66,23 +58,6 @@ std::string listOf(const std::vector<std::string>& names) {
     for (std::size_t i = 0; i < std::min(names.size(), kMost); ++i)
         list += fmt::format("{}{}", i == 0 ? "" : ", ", names[i].empty() ? "one without a name" : names[i]);
     return names.size() > kMost ? fmt::format("{} and {} more", list, names.size() - kMost) : list;
-}
-
-ChannelIndex chooseChannel(const ImageInfo& info, const std::string& path, const std::string& word, const Warn& warn) {
-    if (word.empty()) {
-        const std::vector<std::string> layers = layersOf(info);
-        if (layers.size() > 1)
-            warn(fmt::format("{}: there are {} layers ({}); channel {} is taken: choose with --channel NAME", path,
-                             layers.size(), listOf(layers), info.channelNames.front()));
-        return {};
-    }
-    if (const std::optional<ChannelIndex> index = findChannel(info, word)) return *index;
-    std::vector<std::string> names;
-    for (const ImagePart& part : info.parts)
-        for (const std::string& name : part.channelNames)
-            names.push_back(info.parts.size() > 1 ? part.name + "." + name : name);
-    fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist: {}", path, word, names.size() - 1,
-         listOf(names));
 }
 
 /// Voids become heights; throws where there is nothing to make them from.
@@ -107,6 +82,30 @@ void repairVoids(HeightMap& map, const MapEncoding& encoding, const ImageInfo& i
 
 } // namespace
 
+void warnAbout(const ImageInfo& info, const std::string& path, const HeightOptions& options, const Warn& warn) {
+    if (info.sampleBytes == 1) warn(fmt::format("{}: 8-bit heights show as stairs; use 16 bits or float", path));
+    if (!info.hasUnit() && !options.scale)
+        warn(fmt::format(
+            "{}: integer heights have no unit and no scale is given; 1 is used, the map spans one cage unit", path));
+}
+
+ChannelIndex chooseChannel(const ImageInfo& info, const std::string& path, const std::string& word, const Warn& warn) {
+    if (word.empty()) {
+        const std::vector<std::string> layers = layersOf(info);
+        if (layers.size() > 1)
+            warn(fmt::format("{}: there are {} layers ({}); channel {} is taken: choose with --channel NAME", path,
+                             layers.size(), listOf(layers), info.channelNames.front()));
+        return {};
+    }
+    if (const std::optional<ChannelIndex> index = findChannel(info, word)) return *index;
+    std::vector<std::string> names;
+    for (const ImagePart& part : info.parts)
+        for (const std::string& name : part.channelNames)
+            names.push_back(info.parts.size() > 1 ? part.name + "." + name : name);
+    fail(Failure::input, "{}: there is no channel {}; channels 0 to {} exist: {}", path, word, names.size() - 1,
+         listOf(names));
+}
+
 MapFormat fileFormat(const ImageInfo& info) {
     if (info.sample == "half") return MapFormat::half;
     if (info.sample == "uint16") return MapFormat::unorm16;
@@ -118,10 +117,8 @@ double HeightMap::heightBound() const {
     return std::abs(scale) * std::max(std::abs(lowest - mid), std::abs(highest - mid));
 }
 
-EncodedMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn) {
-    const ImageInfo info = readImageInfo(path, options.limits);
+HeightMap loadTexels(const std::string& path, const HeightOptions& options, const ImageInfo& info, const Warn& warn) {
     const ChannelIndex index = chooseChannel(info, path, options.channel, warn);
-    warnAbout(info, path, options, warn);
     Image image = readImage(path, index.channel, options.limits, index.part);
     HeightMap map{.width = image.width,
                   .height = image.height,
@@ -130,11 +127,18 @@ EncodedMap loadHeightMap(const std::string& path, const HeightOptions& options, 
                   .scale = options.scale.value_or(1.0),
                   .wrap = options.wrap};
     // Texels of integer files are 0..1 already: their own steps, over the range that an encoding has by default.
-    const MapEncoding encoding{.format = fileFormat(info), .blocks = {}};
-    repairVoids(map, encoding, info, path, warn);
-    map = finishMap(std::move(map), path);
+    repairVoids(map, {.format = fileFormat(info), .blocks = {}}, info, path, warn);
+    return finishMap(std::move(map), path);
+}
+
+EncodedMap loadHeightMap(const std::string& path, const HeightOptions& options, const Warn& warn) {
+    if (findTilePattern(path)) return loadTileSet(path, options, warn);
+    const ImageInfo info = readImageInfo(path, options.limits);
+    if (isFaceMap(info)) return loadFaceMap(path, options, info);
+    warnAbout(info, path, options, warn);
+    HeightMap map = loadTexels(path, options, info, warn);
     if (options.format) return encode(map, *options.format);
-    return {std::move(map), encoding};
+    return {std::move(map), {.format = fileFormat(info), .blocks = {}}};
 }
 
 HeightMap makeHeightMap(int width, int height, std::vector<float> texels, double mid, double scale, Wrap wrap) {
@@ -146,6 +150,8 @@ HeightMap makeHeightMap(int width, int height, std::vector<float> texels, double
 }
 
 HeightSample sampleHeight(const HeightMap& map, const dvec2& st) {
+    RELIEF_CHECK(map.addressing != Addressing::faces);
+    if (map.addressing == Addressing::tiles) return sampleHeight(map, MapPlace{.st = st});
     const double ds = 1.0 / map.width, dt = 1.0 / map.height;
     return {.h = heightAt(map, st.x, st.y),
             .hs = (heightAt(map, st.x + ds, st.y) - heightAt(map, st.x - ds, st.y)) / (2 * ds),

@@ -6,6 +6,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "displacement/map_formats.h"
 #include "displacement/mips.h"
 #include "displacement/voids.h"
 
@@ -109,36 +110,33 @@ float largestDifference(std::span<const float> a, std::span<const float> b) {
     return most;
 }
 
-/// Bytes of one level: whole words.
-std::uint64_t levelBytes(MapFormat format, std::uint64_t width, std::uint64_t height) {
+} // namespace
+
+std::uint64_t levelBytes(MapFormat format, const ivec2& size) {
+    const auto width = std::uint64_t(size.x), height = std::uint64_t(size.y);
     if (format == MapFormat::bc4) return (width + 3) / 4 * ((height + 3) / 4) * 8;
     return (width * height * bitsOf(format) + 31) / 32 * 4;
 }
 
-/// Appends a level; returns the largest difference between its texels and what a reader of the words finds.
-float appendBlocks(MapWords& to, const MapEncoding& encoding, const MapLevel<float>& level) {
-    const std::size_t first = to.words.size();
-    const std::vector<std::uint8_t> blocks =
-        first == 0 ? encoding.blocks : blocksOf(toUnit(encoding, level.texels), level.width, level.height);
-    RELIEF_CHECK(blocks.size() == levelBytes(encoding.format, std::uint64_t(level.width), std::uint64_t(level.height)));
-    to.words.resize(first + blocks.size() / 4);
-    std::memcpy(&to.words[first], blocks.data(), blocks.size());
+float storeBlocks(std::span<std::uint32_t> to, const MapEncoding& encoding, const MapLevel<float>& level,
+                  std::span<const std::uint8_t> blocks) {
+    RELIEF_CHECK(blocks.size() == levelBytes(encoding.format, ivec2(level.width, level.height)));
+    std::memcpy(to.data(), blocks.data(), blocks.size());
     return largestDifference(level.texels, fromUnit(encoding, valuesOf(blocks, level.width, level.height)));
 }
 
-float appendTexels(MapWords& to, const MapEncoding& encoding, const MapLevel<float>& level) {
-    const std::size_t first = to.words.size(), bits = bitsOf(encoding.format), perWord = 32 / bits;
-    to.words.resize(first + (level.texels.size() + perWord - 1) / perWord, 0);
+float storeLevel(std::span<std::uint32_t> to, const MapEncoding& encoding, const MapLevel<float>& level) {
+    if (encoding.format == MapFormat::bc4)
+        return storeBlocks(to, encoding, level, blocksOf(toUnit(encoding, level.texels), level.width, level.height));
+    const std::size_t bits = bitsOf(encoding.format), perWord = 32 / bits;
     float most = 0;
     for (std::size_t i = 0; i < level.texels.size(); ++i) {
         const std::uint32_t texel = packed(encoding, level.texels[i]);
-        to.words[first + i / perWord] |= texel << (bits * (i % perWord));
+        to[i / perWord] |= texel << (bits * (i % perWord));
         most = std::max(most, std::abs(unpacked(encoding, texel) - level.texels[i]));
     }
     return most;
 }
-
-} // namespace
 
 std::array<std::uint8_t, 8> encodeBc4(std::span<const float, 16> values) {
     const auto [lowest, highest] = std::ranges::minmax(values);
@@ -186,19 +184,28 @@ EncodedMap encode(const HeightMap& map, MapFormat format) {
         fail(Failure::input, "the height map's values go to {}; halves hold up to {}: keep it as float or unorm16",
              std::max(-map.lowest, map.highest), kMostHalf);
     if (format != MapFormat::half) {
-        encoding.base = map.lowest;
-        if (map.highest > map.lowest) encoding.range = map.highest - map.lowest;
+        const auto [lowest, highest] = std::ranges::minmax(map.texels); // with the aprons of faces
+        encoding.base = lowest;
+        if (highest > lowest) encoding.range = highest - lowest;
     }
 
     // Blocks are kept: encoding what was decoded from them could choose others.
     if (format == MapFormat::bc4) {
-        encoding.blocks = blocksOf(toUnit(encoding, map.texels), map.width, map.height);
-        decoded.texels = fromUnit(encoding, valuesOf(encoding.blocks, map.width, map.height));
+        const auto encodeTile = [&](int width, int height, std::size_t first) {
+            const auto texels = std::span(decoded.texels).subspan(first, std::size_t(width) * std::size_t(height));
+            const std::vector<std::uint8_t> blocks = blocksOf(toUnit(encoding, texels), width, height);
+            std::ranges::copy(fromUnit(encoding, valuesOf(blocks, width, height)), texels.begin());
+            encoding.blocks.insert(encoding.blocks.end(), blocks.begin(), blocks.end());
+        };
+        if (map.tiles.empty()) encodeTile(map.width, map.height, 0);
+        for (const MapTile& tile : map.tiles) {
+            const ivec2 size = tile.size + 2 * apronOf(map.addressing);
+            encodeTile(size.x, size.y, tile.first);
+        }
     } else {
         roundTo(encoding, decoded.texels);
     }
-    const auto [lowest, highest] = std::ranges::minmax(decoded.texels);
-    decoded.lowest = lowest, decoded.highest = highest;
+    findRange(decoded);
     return result;
 }
 
@@ -211,12 +218,20 @@ MapWords toWords(const HeightMap& decoded, const MapEncoding& encoding) {
         words.scale = decoded.scale * step;
     }
 
+    if (decoded.addressing != Addressing::texture) {
+        storeTiles(words, decoded, encoding);
+        return words;
+    }
     words.words.reserve(mapBytes(encoding.format, decoded.width, decoded.height) / 4);
     const auto append = [&](const MapLevel<float>& level) {
-        words.firsts.push_back(std::uint32_t(words.words.size()));
-        words.sizes.emplace_back(level.width, level.height);
-        return encoding.format == MapFormat::bc4 ? appendBlocks(words, encoding, level)
-                                                 : appendTexels(words, encoding, level);
+        const std::size_t first = words.words.size();
+        const ivec2 size(level.width, level.height);
+        words.firsts.push_back(std::uint32_t(first));
+        words.sizes.push_back(size);
+        words.words.resize(first + levelBytes(encoding.format, size) / 4, 0);
+        const std::span<std::uint32_t> to = std::span(words.words).subspan(first);
+        const bool hasBlocks = first == 0 && encoding.format == MapFormat::bc4;
+        return hasBlocks ? storeBlocks(to, encoding, level, encoding.blocks) : storeLevel(to, encoding, level);
     };
     MapLevel<float> level{decoded.width, decoded.height, decoded.texels};
     append(level);
@@ -231,10 +246,10 @@ MapWords toWords(const HeightMap& decoded, const MapEncoding& encoding) {
 }
 
 std::uint64_t mapBytes(MapFormat format, int width, int height) {
-    std::uint64_t bytes = levelBytes(format, std::uint64_t(width), std::uint64_t(height));
+    std::uint64_t bytes = levelBytes(format, ivec2(width, height));
     for (std::uint32_t level = 1; (width > 1 || height > 1) && level < kMostMapLevels; ++level) {
         width = std::max(1, width / 2), height = std::max(1, height / 2);
-        bytes += levelBytes(format, std::uint64_t(width), std::uint64_t(height));
+        bytes += levelBytes(format, ivec2(width, height));
     }
     return bytes;
 }

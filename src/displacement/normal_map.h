@@ -25,6 +25,14 @@ inline constexpr Word<NormalY> kNormalYs[] = {
     {"down", NormalY::down, "green is down the picture (DirectX, Unreal)"},
 };
 
+/// The unit squares of texture coordinates that a picture covers.
+struct PictureTiles {
+    ivec2 first{0}; ///< lowest (s,t)
+    ivec2 count{1}; ///< squares along both
+
+    [[nodiscard]] bool isOne() const { return first == ivec2(0) && count == ivec2(1); }
+};
+
 /// Unit normals, bilinear between texel centres. t points up, row 0 is the top of the picture.
 struct NormalMap {
     int width = 0, height = 0;
@@ -32,6 +40,7 @@ struct NormalMap {
     /// Tangent: x along s, y along t (upwards, whatever the file has), z outwards.
     NormalSpace space = NormalSpace::tangent;
     Wrap wrap = Wrap::repeat;
+    PictureTiles tiles;
     std::uint64_t emptyCount = 0; ///< texels that hold no normal, (0,0,1) here: black, or too short for a direction
     std::uint64_t belowCount = 0; ///< of tangent space: normals with z <= 0
     std::uint64_t firstBelow = 0; ///< number of the first of them

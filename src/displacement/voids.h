@@ -15,4 +15,7 @@ void fillVoids(int width, int height, std::span<float> texels, const std::vector
 /// Rounds texels in place to what the encoding holds of them (not for blocks).
 void roundTo(const MapEncoding& encoding, std::span<float> texels);
 
+/// Sets the range of a map's values, without the aprons of tiles.
+void findRange(HeightMap& map);
+
 } // namespace relief

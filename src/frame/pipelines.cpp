@@ -18,9 +18,11 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
     c.pass = row.constant;
     c.hasMips = drawn.rates.hasMips();
+    c.readsNodes = drawn.surface != nullptr && readsNodes(*drawn.surface, drawn.rates);
     c.hasInstances = row.marksInstances && frame.hasInstances();
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();
+    c.hasPictureTiles = row.hasNormals && pictures.haveTiles();
     if (row.bendsNormals) {
         c.hasTexGradients = pictures.needTexGradients() || drawn.isBentByFunction();
         c.hasSlopes = pictures.slopes.has_value() || drawn.isBentByFunction();

@@ -37,6 +37,9 @@ void HeightPyramid::Block::add(const Block& block) {
 
 HeightPyramid::HeightPyramid(const HeightMap& map, float roundOff)
     : size_(map.width, map.height), roundOff_(roundOff), wrap_(map.wrap), mid_(map.mid), scale_(map.scale) {
+    if (map.addressing == Addressing::tiles) addTiles(map);
+    if (map.addressing == Addressing::faces) addFaces(map);
+    if (map.addressing != Addressing::texture) return;
     Level base{(map.width + kBlock - 1) / kBlock, (map.height + kBlock - 1) / kBlock, {}};
     base.blocks.resize(std::size_t(base.width) * std::size_t(base.height));
     const auto texelAt = [&](int x, int y) {
@@ -88,6 +91,8 @@ HeightPyramid::Block HeightPyramid::blocksIn(std::size_t number, const ivec2& fi
 }
 
 Range HeightPyramid::range(const TexBox& box, int level) const {
+    if (!faces_.empty()) return faces_[box.face];
+    if (!tiles_.empty()) return rangeOfTiles(box, level);
     if (levels_.empty()) return {};
     // A texel of the mip level is the mean of `side` x `side` texels. Where these do not divide the map, `rest` columns
     // and rows take no part, and what the level shows is shifted by up to as much.
@@ -131,11 +136,10 @@ std::vector<TexBox> faceTexBoxes(const Surface& surface) {
         for (const TreeLeaf& leaf : leavesOf(surface.tree, face.root)) {
             if (!surface.hasTexCoords()) break;
             const Patch& patch = surface.patches[leaf.patchIndex];
-            const auto indices =
-                std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patch.texPointCount);
+            const auto indices = std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patch.texPointCount);
             box.add(patchBox<vec2>(indices, surface.texPoints, patch.texParam1));
         }
-        boxes.push_back({box.lower, box.upper});
+        boxes.push_back({box.lower, box.upper, std::uint32_t(boxes.size())});
     }
     return boxes;
 }
@@ -161,8 +165,8 @@ std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> poi
         Box<vec3> box;
         for (const TreeLeaf& leaf : leavesOf(surface.tree, surface.faces[f].root)) {
             const Patch& patch = surface.patches[leaf.patchIndex];
-            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patch.pointCount),
-                                   points, patch.param1));
+            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patch.pointCount), points,
+                                   patch.param1));
         }
         if (box.isEmpty()) continue;
         bounds[f].add(dvec3(box.lower) - double(heightBounds[f]));
@@ -278,6 +282,11 @@ std::vector<FaceNormals> faceNormals(const Surface& surface, std::span<const vec
                                      : FaceNormals{});
     }
     return normals;
+}
+
+void goByFace(FaceNormals& face) {
+    face.su = face.tv = 1, face.sv = face.tu = 0;
+    face.hasTextureSlopes = true;
 }
 
 NormalBounds displacedNormals(const FaceNormals& face, const Range& heights) {

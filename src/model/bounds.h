@@ -2,6 +2,7 @@
 // heights of blocks of the map.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,18 +22,19 @@ struct Range {
 /// A box of texture coordinates; empty (lower > upper) by default.
 struct TexBox {
     vec2 lower{1e30f}, upper{-1e30f};
+    std::uint32_t face = 0; ///< that it lies on, which maps per face go by
 
     [[nodiscard]] bool isEmpty() const { return lower.x > upper.x; }
 };
 
-/// Smallest and largest texels of squares of a map, and of squares of those.
+/// Smallest and largest texels of squares of a map, and of squares of those; of sets, of each tile.
 class HeightPyramid {
 public:
     HeightPyramid() = default;
     /// `roundOff`: how far a mip's texel may be from the mean that it stands for.
     explicit HeightPyramid(const HeightMap& map, float roundOff = 0);
 
-    [[nodiscard]] bool isEmpty() const { return levels_.empty(); }
+    [[nodiscard]] bool isEmpty() const { return levels_.empty() && tiles_.empty() && faces_.empty(); }
 
     /// Bounds of what lookups in the mip levels 0..level find in a box of texture coordinates. A lookup reads texels
     /// beyond the box: up to three texels of the level on each side. All 0 for an empty pyramid.
@@ -50,6 +52,9 @@ private:
         int width = 0, height = 0;
         std::vector<Block> blocks;
     };
+    void addTiles(const HeightMap& map);
+    void addFaces(const HeightMap& map);
+    [[nodiscard]] Range rangeOfTiles(const TexBox& box, int level) const;
     [[nodiscard]] Block blocksIn(std::size_t level, const ivec2& first, const ivec2& last) const;
     [[nodiscard]] Range heights(const Block& stored, const dvec2& stepFactor) const;
 
@@ -58,6 +63,10 @@ private:
     Wrap wrap_ = Wrap::repeat;
     double mid_ = 0, scale_ = 1;
     std::vector<Level> levels_; ///< the last one is a single block
+
+    struct Tile;
+    std::vector<std::shared_ptr<const Tile>> tiles_; ///< over unit squares
+    std::vector<Range> faces_;                       ///< of maps per face, on all of their levels
 };
 
 /// A box around the texture coordinates of each face; empty for holes. Without texture coordinates each face takes the
@@ -94,6 +103,9 @@ struct FaceNormals {
 /// Bounds the derivatives of faces that are one bicubic patch without boundary: their tangents are convex combinations
 /// of differences of control points. Other faces are not bounded.
 std::vector<FaceNormals> faceNormals(const Surface& surface, std::span<const vec3> points);
+
+/// Makes heights a function of the face's own (u,v).
+void goByFace(FaceNormals& face);
 
 /// Bounds of the normals that displacement by such heights leaves.
 NormalBounds displacedNormals(const FaceNormals& face, const Range& heights);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "displacement/tile_levels.h"
 #include "displacement/vector_map.h"
 #include "model/pictures.h"
 #include "model/stages.h"
@@ -16,10 +17,12 @@ std::span<const std::byte> bytesOf(const std::vector<T>& array) {
 /// A map whose words are more than the device reads from one table is refused before anything is allocated.
 void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) {
     const std::uint64_t maps = map.vectors ? 3 : 1;
-    const std::uint64_t bytes = maps * mapBytes(format, map.width, map.height), most = largestTable(device, 8);
-    if (bytes > most)
-        fail(Failure::device, "a height map of {} x {} takes {} with its mips; {} reads {}", map.width, map.height,
-             humanBytes(bytes), device.traits().name, humanBytes(most));
+    const std::uint64_t bytes = maps * mapBytes(format, map), most = largestTable(device, 8);
+    if (bytes <= most) return;
+    const std::string size =
+        map.tiles.empty() ? fmt::format("{} x {}", map.width, map.height) : fmt::format("{} tiles", map.tiles.size());
+    fail(Failure::device, "a height map of {} takes {} with its mips; {} reads {}", size, humanBytes(bytes),
+         device.traits().name, humanBytes(most));
 }
 
 MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
@@ -28,6 +31,11 @@ MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
     record.mid = float(words.mid);
     record.scale = float(words.scale);
     record.repeats = map.wrap == Wrap::repeat ? 1 : 0;
+    if (map.addressing == Addressing::tiles) {
+        const TileGrid grid = gridOf(map);
+        record.firstTile = grid.first, record.tileCount = grid.count;
+    }
+    if (map.addressing != Addressing::texture) return record; // its words say where levels begin
     record.levelCount = std::uint32_t(words.firsts.size());
     RELIEF_CHECK(words.firsts.size() <= kMostMapLevels);
     std::ranges::copy(words.firsts, record.firstWords);
@@ -66,6 +74,7 @@ void uploadVectors(Device& device, const HeightMap& map, SurfaceModel& model) {
                                 records[0],
                                 format,
                                 float(map.heightBound()),
+                                Addressing::texture,
                                 std::uint32_t(vectors.space),
                                 {records[1], records[2]}};
     model.heightPyramid = HeightPyramid(map, float(roundOff / std::abs(map.scale)));
@@ -114,6 +123,25 @@ void uploadTables(Device& device, const Surface& surface, SurfaceModel& model) {
         uploadTexels(device, {.name = "texture points"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(surface.texPoints));
 }
 
+/// What rates and the choice of lookups need of a map per face.
+void addFaceHeights(const HeightMap& map, const Surface& surface, SurfaceModel& model) {
+    for (const MapTile& tile : map.tiles) model.mapSegments.push_back(tile.segments);
+    for (const Edge& edge : surface.edges) {
+        // All nodes along the edge, at its owner.
+        const Incidence& owner = edge.owner;
+        const ivec2 segments = map.tiles[owner.face].size - 1;
+        const int count = owner.side % 2 == 0 ? segments.x : segments.y;
+        double lowest = INFINITY, highest = -INFINITY;
+        for (int k = 0; k <= count; ++k) {
+            const double x = std::clamp(double(k) / count, double(owner.start), double(owner.end));
+            const dvec2 uv = sidePoint(4, int(owner.side), x);
+            const double h = sampleHeight(map, {.face = int(owner.face), .uv = uv}).h;
+            lowest = std::min(lowest, h), highest = std::max(highest, h);
+        }
+        model.edgeHeights.push_back({float(count) * (owner.end - owner.start), float(highest - lowest)});
+    }
+}
+
 } // namespace
 
 SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
@@ -130,12 +158,15 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
         const MapEncoding asFloats;
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
         checkMapSize(device, *desc.height, encoding.format);
-        const MapWords words = toWords(*desc.height, encoding);
-        height = GpuHeightMap{uploadHeights(device, words, encoding.format), makeRecord(*desc.height, words),
-                              encoding.format, float(desc.height->heightBound())};
+        MapWords words = toWords(*desc.height, encoding);
+        const MapRecord record = makeRecord(*desc.height, words);
         heightPyramid = HeightPyramid(*desc.height, words.roundOff);
+        height = GpuHeightMap{uploadHeights(device, std::move(words), encoding.format), record, encoding.format,
+                              float(desc.height->heightBound()), desc.height->addressing};
+        if (height->addressing == Addressing::faces) addFaceHeights(*desc.height, surface, *this);
     }
-    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
+    if (desc.albedo != nullptr)
+        pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
     if (desc.bump != nullptr) pictures.slopes = uploadSlopes(device, *desc.bump);
     if (desc.normalMap != nullptr) pictures.normalMap = uploadNormals(device, *desc.normalMap);
 
@@ -152,6 +183,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     const bool movesByVectors = height && height->vectorSpace != kVectorNone;
     if (enclosesVolume(surface) && !movesByFunction && !movesByVectors) { // nothing bounds the slopes of those
         faceNormals = relief::faceNormals(surface, refined);
+        if (addressing() == Addressing::faces)
+            for (FaceNormals& face : faceNormals) goByFace(face);
         normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
     }
     std::vector<vec4> texels;
@@ -233,7 +266,8 @@ MeshModel::MeshModel(Device& device, const MeshModelDesc& desc) {
     texCoords =
         uploadTexels(device, {.name = "mesh texture coordinates"}, VK_FORMAT_R32G32_SFLOAT, bytesOf(mesh.texCoords));
     indices = uploadIndices(device, mesh.indices);
-    if (desc.albedo != nullptr) pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap};
+    if (desc.albedo != nullptr)
+        pictures.albedo = AlbedoMap{uploadAlbedo(device, *desc.albedo), desc.albedoWrap, desc.albedoTiles};
     tables.heightBound = 1; // heights of a mesh are relative: DenseMesh::heights
     if (desc.function != nullptr) setFunction(desc, *this);
     uploadDetail(device, desc, *this);

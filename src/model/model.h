@@ -39,14 +39,21 @@ struct GpuHeightMap {
     MapRecord record{};
     MapFormat format = MapFormat::real;
     float heightBound = 0; ///< largest |h|, cage units
+    Addressing addressing = Addressing::texture;
     std::uint32_t vectorSpace = kVectorNone;
     std::array<MapRecord, 2> otherRecords{}; ///< of a vector map: the second and the third component
+};
+
+/// An edge on a map per face: how long it is in segments, and the highest less the lowest height along it.
+struct EdgeHeights {
+    float segments = 0, range = 0;
 };
 
 /// A colour picture with its mip levels, sRGB-encoded.
 struct AlbedoMap {
     Texture texture;
     Wrap wrap = Wrap::repeat;
+    PictureTiles tiles;
 };
 
 /// A normal map with its mip levels.
@@ -54,6 +61,7 @@ struct GpuNormalMap {
     Texture texture; ///< unit normals as NormalMap holds them, and means of them
     NormalSpace space = NormalSpace::tangent;
     Wrap wrap = Wrap::repeat;
+    PictureTiles tiles;
 };
 
 /// The slopes of a height map that bend normals per fragment.
@@ -62,6 +70,7 @@ struct GpuSlopeMap {
     float unit = 1;  ///< SlopeMap::unit
     Wrap wrap = Wrap::repeat;
     std::uint64_t byteCount = 0; ///< of its texels, mip levels included
+    PictureTiles tiles;
 };
 
 /// What fragments read of a model, as far as there is any of it.
@@ -75,6 +84,11 @@ struct ModelPictures {
         return slopes || (normalMap && normalMap->space == NormalSpace::tangent);
     }
     [[nodiscard]] bool needTexCoords() const { return slopes || normalMap; }
+    /// Whether one of them covers other unit squares of texture coordinates than the first one.
+    [[nodiscard]] bool haveTiles() const {
+        return (albedo && !albedo->tiles.isOne()) || (slopes && !slopes->tiles.isOne()) ||
+               (normalMap && !normalMap->tiles.isOne());
+    }
 };
 
 // --- surfaces -----------------------------------------------------------------------------------------------------
@@ -97,6 +111,7 @@ struct SurfaceModelDesc {
     const HeightMap* bump = nullptr;           ///< heights whose slopes normals show, as far as `height` does not
     const NormalMap* normalMap = nullptr;      ///< of object space only where the cage never moves
     Wrap albedoWrap = Wrap::repeat;
+    PictureTiles albedoTiles;
     const Image* albedo = nullptr; ///< 3 or more channels, sRGB-encoded values 0..1
 };
 
@@ -128,6 +143,8 @@ struct SurfaceModel {
     std::vector<Bounds> faceBounds;       ///< boxes around faces displaced by level 0 of the map; empty ones for holes
     std::vector<float> faceHeightBounds;  ///< largest |h| on each face in level 0 of the map, cage units
     std::vector<float> faceHeightRanges;  ///< FunctionHeights::faceRanges
+    std::vector<EdgeHeights> edgeHeights; ///< per edge where the map is per face, else empty
+    std::vector<ivec2> mapSegments;       ///< MapTile::segments per face where the map is per face, else empty
     std::vector<FaceNormals> faceNormals; ///< what bounds of normals are made of for other levels; empty as these
     std::vector<NormalBounds> normalBounds; ///< of displaced faces; empty unless the surface is closed and oriented
     int sideCount = 4;                      ///< of all faces: 4, or 3 of Loop surfaces
@@ -146,6 +163,7 @@ struct SurfaceModel {
     [[nodiscard]] bool hasMotion() const {
         return points.before != points.now || (function && tables.heightTime != tables.heightTimeBefore);
     }
+    [[nodiscard]] Addressing addressing() const { return height ? height->addressing : Addressing::texture; }
     [[nodiscard]] MapFormat mapFormat() const { return height ? height->format : MapFormat::real; }
 
     /// The time that a height function is given, in seconds, and that of the frame that motion is measured from; 0
@@ -172,6 +190,7 @@ struct MeshModelDesc {
     std::span<const vec3> restPositions;       ///< what a function is given, per vertex; empty: those of the mesh
     const Tangents* tangents = nullptr;        ///< of the mesh
     Wrap albedoWrap = Wrap::repeat;
+    PictureTiles albedoTiles;
     const Image* albedo = nullptr; ///< as SurfaceModelDesc::albedo
 };
 

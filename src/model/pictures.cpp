@@ -93,10 +93,10 @@ void toBlocks(std::span<std::byte> texels, const ivec2& size, std::size_t bytes)
 TexelBuffer uploadHeights(Device& device, MapWords map, MapFormat format) {
     std::vector<std::uint32_t>& words = map.words;
     for (std::size_t level = 0; level < map.firsts.size() && format != MapFormat::bc4; ++level) {
-        const ivec2 levelSize = map.sizes[level];
-        if (!mapIsInBlocks(std::uint32_t(format), levelSize)) continue;
-        const std::size_t bytes = std::size_t(levelSize.x) * std::size_t(levelSize.y) * texelBytes(format);
-        toBlocks(std::as_writable_bytes(std::span(words)).subspan(4 * std::size_t(map.firsts[level]), bytes), levelSize,
+        const ivec2 size = map.sizes[level];
+        if (!mapIsInBlocks(std::uint32_t(format), size)) continue;
+        const std::size_t bytes = std::size_t(size.x) * std::size_t(size.y) * texelBytes(format);
+        toBlocks(std::as_writable_bytes(std::span(words)).subspan(4 * std::size_t(map.firsts[level]), bytes), size,
                  texelBytes(format));
     }
     words.resize((words.size() + 1) / 2 * 2, 0);
@@ -104,6 +104,13 @@ TexelBuffer uploadHeights(Device& device, MapWords map, MapFormat format) {
 }
 
 GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
+    RELIEF_CHECK(map.addressing != Addressing::faces);
+    if (map.addressing == Addressing::tiles) {
+        const JoinedMap joined = joinTiles(map);
+        GpuSlopeMap slopes = uploadSlopes(device, joined.map);
+        slopes.tiles = joined.tiles;
+        return slopes;
+    }
     const SlopeMap slopes = computeSlopes(map);
     return {uploadTexture(device,
                           {.name = "slopes",
@@ -112,7 +119,10 @@ GpuSlopeMap uploadSlopes(Device& device, const HeightMap& map) {
                            .mipCount = slopes.levelCount,
                            .format = VK_FORMAT_R16G16_SFLOAT},
                           std::as_bytes(std::span(slopes.texels)), 4),
-            slopes.unit, map.wrap, slopes.texels.size() * sizeof(slopes.texels[0])};
+            slopes.unit,
+            map.wrap,
+            slopes.texels.size() * sizeof(slopes.texels[0]),
+            {}};
 }
 
 GpuNormalMap uploadNormals(Device& device, const NormalMap& map) {
@@ -125,7 +135,7 @@ GpuNormalMap uploadNormals(Device& device, const NormalMap& map) {
                            .mipCount = levels,
                            .format = VK_FORMAT_R16G16B16A16_SFLOAT},
                           std::as_bytes(std::span(texels)), 8),
-            map.space, map.wrap};
+            map.space, map.wrap, map.tiles};
 }
 
 Texture uploadAlbedo(Device& device, const Image& image) {

@@ -65,6 +65,10 @@ VkDescriptorType descriptorType(const Device& device, BindingKind kind) {
 
 /// The pictures that fragments read. They keep the samplers that are bound.
 void describePictures(const ModelPictures& pictures, PassInputs& inputs, PassBindings& bindings) {
+    const auto toInputs = [](const PictureTiles& tiles) { return vec4(vec2(tiles.first), 1.0f / vec2(tiles.count)); };
+    inputs.model.albedoTiles = toInputs(pictures.albedo ? pictures.albedo->tiles : PictureTiles{});
+    inputs.model.slopeTiles = toInputs(pictures.slopes ? pictures.slopes->tiles : PictureTiles{});
+    inputs.model.normalTiles = toInputs(pictures.normalMap ? pictures.normalMap->tiles : PictureTiles{});
     if (pictures.albedo) bindings[kBindAlbedo].view = pictures.albedo->texture.view.get();
     if (pictures.normalMap) bindings[kBindNormalMap].view = pictures.normalMap->texture.view.get();
     if (!pictures.slopes) return;
@@ -109,6 +113,9 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdShading] = shading;
     values[kIdAddsLight] = addsLight;
     values[kIdHasOcclusion] = hasOcclusion;
+    values[kIdMapAddressing] = std::uint32_t(addressing);
+    values[kIdReadsNodes] = readsNodes;
+    values[kIdHasPictureTiles] = hasPictureTiles;
     return values;
 }
 
@@ -118,6 +125,7 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
             .normal = normal,
             .stretches = model.stretches(),
             .mapFormat = model.mapFormat(),
+            .addressing = model.addressing(),
             .hasWideIndices = model.hasWideIndices,
             .hasStraightCorners = model.hasStraightCorners,
             .heightFunction = model.function ? model.function->number() : 0,

@@ -23,6 +23,8 @@ struct ShaderConstants {
     std::uint32_t groupSize = 64;
     bool hasMips = false, isCommon = false, stretches = false, hasMotion = false;
     MapFormat mapFormat = MapFormat::real;
+    Addressing addressing = Addressing::texture;
+    bool readsNodes = false, hasPictureTiles = false;
     bool hasWideIndices = false, hasStraightCorners = false;
     std::uint32_t pass = kPassSurface;
     bool isMesh = false, isPlaced = false, hasInstances = false;

@@ -13,6 +13,7 @@ SurfaceModel makeSurfaceModel(Device& device, const LoadedObject& object) {
                                 .bump = object.bumpMap(),
                                 .normalMap = object.normalMap ? &*object.normalMap : nullptr,
                                 .albedoWrap = object.wrap,
+                                .albedoTiles = object.albedoTiles,
                                 .albedo = object.albedo ? &*object.albedo : nullptr});
     model.setTime(object.time, object.time);
     return model;
@@ -29,6 +30,7 @@ Model makeModel(Device& device, const LoadedObject& object) {
                        .restPositions = object.denseRest,
                        .tangents = tangents ? &*tangents : nullptr,
                        .albedoWrap = object.wrap,
+                       .albedoTiles = object.albedoTiles,
                        .albedo = object.albedo ? &*object.albedo : nullptr};
     MeshModel model(device, desc);
     model.setTime(object.time, object.time);

@@ -103,13 +103,14 @@ void splitForTangents(LoadedObject& object) {
 } // namespace
 
 std::vector<std::string> listFiles(const ObjectDesc& object) {
-    return {object.cage,
-            object.height.path,
-            object.height.function,
-            object.motion.cachePath,
-            object.motion.skinPath,
-            object.material.albedo,
-            object.material.normalMap.path};
+    std::vector<std::string> files{object.cage, object.height.function, object.motion.cachePath,
+                                   object.motion.skinPath};
+    for (const std::string& map : {object.height.path, object.material.albedo, object.material.normalMap.path}) {
+        files.push_back(map);
+        if (!findTilePattern(map)) continue;
+        for (const TileFile& tile : listTiles(map)) files.push_back(tile.path);
+    }
+    return files;
 }
 
 std::vector<std::string> listFiles(const SceneDesc& scene) {
@@ -159,6 +160,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     } else {
         object.options = {.scheme = toScheme(subdivision), .isolation = desc.isolation};
         object.surface = buildNamedSurface(object, desc.cage);
+        if (object.height) fitHeights(object, desc);
     }
     object.loadSeconds = loadEnd - start;
     object.surfaceSeconds = secondsNow() - loadEnd;
@@ -184,7 +186,7 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
     LoadedScene scene{.object = load(object, state, warn)};
     warnOfUnusedTags(scene.object, object, warn);
     if (!object.material.albedo.empty()) {
-        scene.object.albedo = loadAlbedo(object.material.albedo, warn);
+        loadAlbedo(scene.object, object.material.albedo, warn);
         // A height map has been named in such a warning already.
         if (object.height.path.empty()) warnOutsideMap(object, scene.object.cage, object.material.albedo, warn);
     }

@@ -5,15 +5,33 @@
 
 namespace relief {
 
-/// Reads the height map of an object. Warns of a cage without texture coordinates, and as warnOutsideMap does.
+/// Reads the height map of an object. Warns of a cage without texture coordinates, of tiles that a set lacks, and as
+/// warnOutsideMap does. Throws Failure::usage for what does not go with a set of tiles or a map per face, and
+/// Failure::input for a set and a cage without texture coordinates.
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn);
+
+/// Fits a map per face to the surface of its cage and stores it as its encoding says. Does nothing with other maps.
+/// Throws Failure::input for a map that was made for another cage.
+void fitHeights(LoadedObject& object, const ObjectDesc& desc);
 
 /// Reads and compiles the height function of an object. Its bounds are not known yet.
 FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage);
 
 /// Reads a color map. Throws Failure::input for fewer than 3 channels and for texels that are not finite; warns where
 /// the file has several layers and where values are clamped to 0..1.
-Image loadAlbedo(const std::string& path, const Warn& warn);
+Image loadColors(const std::string& path, const Warn& warn);
+/// The same, or all files of a set of tiles.
+void loadAlbedo(LoadedObject& object, const std::string& path, const Warn& warn);
+
+/// The pictures of a set of tiles in one, over all unit squares that the set spans.
+struct JoinedPictures {
+    Image image; ///< 3 channels
+    PictureTiles tiles;
+};
+/// Reads them on all cores. Tiles of other sizes become as large as the largest, or as the picture allows. Squares
+/// without a tile have one color: `empty`, or where there is none the mean of all tiles.
+/// Throws as listTiles and loadColors do; warns of tiles that are made smaller.
+JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& empty, const Warn& warn);
 
 /// Whether a material is so smooth that it shows the environment as it is.
 inline bool isMirror(const MaterialDesc& material) { return material.roughness < 0.05f; }

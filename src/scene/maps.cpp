@@ -22,13 +22,13 @@ std::pair<vec2, vec2> texCoordRange(const Cage& cage) {
 
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn) {
     constexpr float kRounding = 1e-4f; // of programs that write texture coordinates with a few digits
-    if (desc.height.wrap || !cage.hasTexCoords()) return;
+    if (desc.height.wrap || !cage.hasTexCoords() || findTilePattern(map)) return;
     const auto [lower, upper] = texCoordRange(cage);
     const bool isInside =
         lower.x >= -kRounding && lower.y >= -kRounding && upper.x <= 1 + kRounding && upper.y <= 1 + kRounding;
     if (isInside) return;
     warn(fmt::format("{}: texture coordinates go from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}), outside of 0..1, where {} "
-                     "repeats (sets of UDIM tiles are not supported); --wrap repeat or clamp says what is meant",
+                     "repeats; --wrap repeat or clamp says what is meant, and a name with <UDIM> a set of tiles",
                      desc.cage, lower.x, lower.y, upper.x, upper.y, map));
 }
 
@@ -79,7 +79,50 @@ HeightMap loadVectors(const ObjectDesc& desc, const Cage& cage, const Warn& warn
     return map;
 }
 
+/// Tiles that corners of faces lie in, each a little towards the middle of its face: on a border they would be others.
+void warnOfMissingTiles(const Cage& cage, const HeightMap& set, const std::string& path, const Warn& warn) {
+    const TilePattern pattern = *findTilePattern(path);
+    std::vector<std::string> missing;
+    std::size_t first = 0;
+    for (const std::uint32_t size : cage.faceSizes) {
+        dvec2 middle(0);
+        for (std::uint32_t k = 0; k < size; ++k)
+            middle += dvec2(cage.texCoords[cage.texCorners[first + k]]) / double(size);
+        for (std::uint32_t k = 0; k < size; ++k) {
+            const dvec2 st = glm::mix(dvec2(cage.texCoords[cage.texCorners[first + k]]), middle, 1e-3);
+            if (findTile(set.tiles, st) != nullptr) continue;
+            const ivec2 place(glm::floor(glm::clamp(st, dvec2(-1e6), dvec2(1e6))));
+            const std::string name = std::min(place.x, place.y) < 0
+                                         ? fmt::format("of s and t from {} and {}", place.x, place.y)
+                                         : nameTile(pattern, place);
+            if (std::ranges::find(missing, name) == missing.end()) missing.push_back(name);
+        }
+        first += size;
+    }
+    if (missing.empty()) return;
+    constexpr std::size_t kMostNames = 8;
+    std::string names;
+    for (std::size_t i = 0; i < std::min(missing.size(), kMostNames); ++i) names += (i > 0 ? ", " : "") + missing[i];
+    if (missing.size() > kMostNames) names += fmt::format(" and {} more", missing.size() - kMostNames);
+    warn(fmt::format("{}: the set has no tile {}, which texture coordinates lie in: nothing is displaced there", path,
+                     names));
+}
+
 } // namespace
+
+void fitHeights(LoadedObject& object, const ObjectDesc& desc) {
+    HeightMap& map = *object.height;
+    if (map.addressing != Addressing::faces) return;
+    const std::uint64_t topology = hashTopology(object.cage);
+    if (map.topology != topology)
+        fail(Failure::input,
+             "{}: this map per face was made for another cage than {} ({:016x}, not {:016x}), or with another --weld",
+             desc.height.path, desc.cage, map.topology, topology);
+    fitToFaces(map, object.surface);
+    EncodedMap encoded = encode(map, object.heightEncoding.format);
+    object.height = std::move(encoded.decoded);
+    object.heightEncoding = std::move(encoded.encoding);
+}
 
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
     const HeightDesc& height = desc.height;
@@ -87,7 +130,23 @@ EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& war
     HeightOptions options{
         .mid = height.mid, .scale = height.scale, .channel = height.channel, .format = height.format, .limits = {}};
     options.wrap = height.wrap.value_or(options.wrap);
+    if (findTilePattern(height.path) && height.wrap)
+        fail(Failure::usage, "{}: a set of tiles does not repeat; omit --wrap", height.path);
     EncodedMap map = loadHeightMap(height.path, options, warn);
+    if (map.decoded.addressing == Addressing::faces) {
+        if (desc.height.detail == Detail::bump || desc.height.detail == Detail::both)
+            fail(Failure::usage,
+                 "{}: a map per face has no texture coordinates, which bend normals; use --detail displacement",
+                 height.path);
+        return map;
+    }
+    if (map.decoded.addressing == Addressing::tiles) {
+        if (!cage.hasTexCoords())
+            fail(Failure::input, "{}: there are no texture coordinates, which the set of tiles {} needs", desc.cage,
+                 height.path);
+        warnOfMissingTiles(cage, map.decoded, height.path, warn);
+        return map;
+    }
     if (!cage.hasTexCoords())
         warn(fmt::format("{}: no texture coordinates: every face takes the whole map", desc.cage));
     warnOutsideMap(desc, cage, height.path, warn);
@@ -120,10 +179,26 @@ NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const 
              map.path);
     NormalOptions options{.space = map.space, .y = map.y, .limits = {}};
     options.wrap = desc.height.wrap.value_or(options.wrap);
-    return loadNormalMap(map.path, options, warn);
+    if (!findTilePattern(map.path)) return loadNormalMap(map.path, options, warn);
+    JoinedPictures joined = joinPictures(map.path, vec3(0.5f, 0.5f, 1.0f), warn);
+    options.wrap = Wrap::clamp;
+    NormalMap normals = makeNormalMap(joined.image, map.path, options, warn);
+    normals.tiles = joined.tiles;
+    return normals;
 }
 
-Image loadAlbedo(const std::string& path, const Warn& warn) {
+void loadAlbedo(LoadedObject& object, const std::string& path, const Warn& warn) {
+    if (!findTilePattern(path)) {
+        object.albedo = loadColors(path, warn);
+        return;
+    }
+    JoinedPictures joined = joinPictures(path, {}, warn);
+    object.albedo = std::move(joined.image);
+    object.albedoTiles = joined.tiles;
+    object.wrap = Wrap::clamp;
+}
+
+Image loadColors(const std::string& path, const Warn& warn) {
     // Which channels are the colors.
     const ImageInfo info = readImageInfo(path);
     if (info.channels < 3)
@@ -160,8 +235,7 @@ Image loadMatcap(const std::string& path) {
                 if (!std::isfinite(value) || value < 0)
                     fail(Failure::input, "{}: pixel {},{} is {}; light is a number from 0 on", path, x, y, value);
                 // Codes are sRGB (IEC 61966-2-1), made linear.
-                const float linear =
-                    value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+                const float linear = value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
                 ball.texels.push_back(info.isFloat ? value : linear);
             }
     return ball;

@@ -123,7 +123,8 @@ struct LoadedObject {
     std::optional<FunctionHeights> function; ///< instead of `height`; measureFunction() fills in its bounds
     double time = 0;                         ///< seconds, of the pose
     std::optional<Image> albedo;
-    Wrap wrap = Wrap::repeat;         ///< of the albedo
+    Wrap wrap = Wrap::repeat; ///< of the albedo
+    PictureTiles albedoTiles;
     std::optional<vec3> textureColor; ///< linear, multiplies an albedo that the cage's own file names
     std::optional<NormalMap> normalMap;
     bool needsTangents = false; ///< normals are bent or turned along texture coordinates, by heights or a normal map
@@ -220,8 +221,7 @@ std::vector<dvec3> computeOutline(const Cage& cage, Scheme scheme, const HeightM
 std::vector<dvec3> computeOutline(const LoadedObject& object);
 /// Points that outline the smooth surface of a cage, without heights, at one time of its animation; null: as it stands.
 std::vector<dvec3> computeOutlineAt(const Cage& cage, Scheme scheme, const Animation* animation, double seconds);
-/// Points that outline poses spread evenly over the keys of an animation, so that they are the same whichever of its
-/// frames are rendered.
+/// Points that outline poses spread evenly over the keys of an animation, whichever of its frames are rendered.
 std::vector<dvec3> computeOutlineOfAll(const LoadedObject& object);
 
 /// A camera of the world in the coordinates of an object.

@@ -42,6 +42,7 @@ struct Capture {
     const Pipeline& pipelineOf(const std::vector<Stage>& stages, VkPrimitiveTopology topology) {
         ShaderConstants constants = constantsOf(model, NormalKind::limit);
         constants.hasMips = rates.hasMips();
+        constants.readsNodes = readsNodes(model, rates);
         std::vector<std::uint32_t> key = constants.values();
         key.insert(key.end(), {std::uint32_t(topology), model.isTriangles()});
         const auto found = parts.pipelines.find(key);

@@ -182,6 +182,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     constants.hasTexGradients = options.wantsTexGradients;
     constants.hasSlopes = options.wantsTexGradients && model.functionBendsNormals;
     constants.hasMips = rates.hasMips();
+    constants.readsNodes = readsNodes(model, rates);
     constants.groupSize = device.traits().smallGroup;
     Passes passes = passesOf(work, table, first);
     compile(passes.vertices, model, constants);

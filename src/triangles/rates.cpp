@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "model/bounds.h"
@@ -123,6 +124,10 @@ std::vector<EdgeFootprint> EdgeRater::Parts::measureFootprints(const SurfaceMode
             edges.push_back({0, model.faceHeightRanges.empty() ? 0 : model.faceHeightRanges[edge.owner.face]});
         return edges;
     }
+    if (model.addressing() == Addressing::faces) { // known without a measurement
+        for (const EdgeHeights& edge : model.edgeHeights) edges.push_back({edge.segments, edge.range});
+        return edges;
+    }
     const std::vector<float> words = measure({.file = "footprints.comp", .floatCount = kFootprintFloats}, model, {});
     for (std::size_t i = 0; i < words.size(); i += kFootprintFloats) {
         const TexBox box{vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4])};
@@ -229,6 +234,31 @@ FaceSegments faceSegments(const SurfaceModel& model, const EdgeRates& rates, std
     f.v = std::max(f.sides[1], f.sides[3]);
     if (model.isTriangles()) f.u = f.v = std::max(f.u, f.v);
     return f;
+}
+
+bool readsNodes(const SurfaceModel& model, const EdgeRates& rates) {
+    if (model.mapSegments.empty() || rates.spacing != Spacing::equal) return false;
+    // One level for all, and a whole one.
+    const float level = rates.hasMips() ? rates.cornerLevels.front() : 0;
+    if (level != std::floor(level)) return false;
+    if (std::ranges::any_of(rates.cornerLevels, [&](float other) { return other != level; })) return false;
+    // Numbers of nodes are powers of two, and so are their divisors.
+    const auto isOnNodes = [&](std::uint32_t segments, int log) {
+        return std::has_single_bit(segments) && segments <= 1u << std::max(log - int(level), 0);
+    };
+    for (std::uint32_t f = 0; f < model.faces.size(); ++f) {
+        if (model.faces[f].root == kNoPatch) continue;
+        const FaceSegments face = faceSegments(model, rates, f);
+        // Inside of a face there are two segments each way at least, unless it has one per side.
+        const std::uint32_t least = face.u * face.v == 1 ? 1 : 2;
+        if (!isOnNodes(std::max(face.u, least), model.mapSegments[f].x) ||
+            !isOnNodes(std::max(face.v, least), model.mapSegments[f].y))
+            return false;
+        for (int side = 0; side < 4; ++side)
+            if (!isOnNodes(face.sides[side], side % 2 == 0 ? model.mapSegments[f].x : model.mapSegments[f].y))
+                return false;
+    }
+    return true;
 }
 
 std::uint64_t boundarySegments(const SurfaceModel& model, const EdgeRates& rates) {

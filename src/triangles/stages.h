@@ -50,6 +50,10 @@ RateTables uploadRates(Device& device, const SurfaceModel& model, const EdgeRate
 void describeRates(const SurfaceModel& model, const EdgeRates& rates, const RateTables& tables, PassInputs& inputs,
                    PassBindings& bindings);
 
+/// Whether the samples of all faces and edges lie on nodes of a map per face, on one level of it: one fetch gives a
+/// height then (shaders/heights.glsl).
+bool readsNodes(const SurfaceModel& model, const EdgeRates& rates);
+
 /// Indices of a grid of quads, two triangles per cell, row after row. The first rows of a grid are those of a larger
 /// one with as many columns.
 std::vector<std::uint32_t> gridIndices(std::uint32_t columns, std::uint32_t rows);

@@ -16,6 +16,7 @@ struct ImageEncoding {
     SampleType sample;                  ///< of all channels, where `channels` is empty
     std::vector<ImageChannel> channels; ///< with names and sample types of their own
     std::string compression;            ///< empty: the format's own choice
+    ImageAttributes attributes;         ///< of an EXR
 };
 
 /// What the module does; base/images.h describes the functions of the same names.

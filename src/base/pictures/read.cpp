@@ -321,6 +321,14 @@ std::string profileOf(const OIIO::ImageSpec& spec) {
                        std::string(spec.get_string_attribute("ICCProfile:profile_description", "without a name")));
 }
 
+ImageAttributes attributesOf(const OIIO::ImageSpec& spec) {
+    ImageAttributes attributes;
+    for (const OIIO::ParamValue& value : spec.extra_attribs)
+        if (value.type() == OIIO::TypeString && std::string_view(value.name().string()).starts_with(kAttributePrefix))
+            attributes[value.name().string()] = value.get_string();
+    return attributes;
+}
+
 Image readChannels(const OpenImage& source, int first, int end) {
     Image image{.width = source.spec.width, .height = source.spec.height, .channels = end - first, .texels = {}};
     image.texels.reserve(std::size_t(image.width) * image.height * image.channels);
@@ -349,7 +357,8 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
             .noData = image.format == "tiff" ? readTiffFacts(path).noData : std::nullopt,
             .colorTag = image.format == "png" ? readPngFacts(picture).colorTag : profileOf(spec),
             .channelNames = spec.channelnames,
-            .parts = std::move(parts)};
+            .parts = std::move(parts),
+            .attributes = attributesOf(spec)};
 }
 
 Image readImage(const std::string& path, int channel, const ImageLimits& limits, int part) {

@@ -45,6 +45,7 @@ OIIO::ImageSpec makeSpec(const Image& image, const ImageEncoding& encoding) {
         spec.channelformats.push_back(sampleDesc(channel.sample));
     }
     if (!encoding.compression.empty()) spec.attribute("compression", encoding.compression);
+    for (const auto& [name, text] : encoding.attributes) spec.attribute(name, text);
     spec.attribute("DateTime", "2000:01:01 00:00:00"); // else the hour of writing: equal pictures must be equal files
     spec.attribute("oiio:UnassociatedAlpha", 1);       // otherwise colours are divided by alpha on the way out
     spec.attribute("tiff:write_exif", 0);              // it would be read back, and memory output cannot be read

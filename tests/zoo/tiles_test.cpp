@@ -1,0 +1,190 @@
+// Sets of tiles and maps per face: watertight to the bit on every path, over cages whose islands cross tiles.
+#include <cstdlib>
+
+#include "check/check.h"
+#include "loads.h"
+#include "triangles/stages.h"
+
+namespace relief::test {
+namespace {
+
+class ZooTiles : public OnDevice {};
+
+/// One pen, and the first of the paths: for drivers that compile slowly, and for sanitizers.
+bool isQuickRun() { return std::getenv("RELIEF_ZOO_QUICK") != nullptr; }
+
+std::vector<Path> visitedPaths() {
+    std::vector<Path> paths = capturedPaths();
+    if (isQuickRun()) paths = {Path::dice};
+    return paths;
+}
+
+/// Islands of a cage spread over the unit squares around the origin: most cross a border, some lie where no tile is.
+Cage overTiles(Cage cage) {
+    if (!cage.hasTexCoords()) cage = withIslands(std::move(cage));
+    cage = withScatteredIslands(std::move(cage));
+    for (vec2& st : cage.texCoords) st = 1.7f * st + vec2(0.4f, 0.7f);
+    return cage;
+}
+
+/// Noise in tiles of different sizes; one of the squares in the middle is missing.
+HeightMap noiseTiles() {
+    std::mt19937 random(5);
+    const auto noise = [&](int, int) { return double(random() % 2001) / 1000 - 1; };
+    std::vector<HeightMap> maps;
+    std::vector<ivec2> places;
+    constexpr ivec2 kSizes[] = {{16, 16}, {64, 32}, {5, 7}, {33, 16}};
+    for (int t = -1; t < 4; ++t)
+        for (int s = -1; s < 4; ++s) {
+            if (s == 1 && t == 0) continue;
+            const ivec2 size = kSizes[std::size_t(s + 3 * t + 8) % 4];
+            maps.push_back(mapOf(size.x, size.y, Wrap::clamp, noise));
+            places.emplace_back(s, t);
+        }
+    return makeTileSet(maps, places);
+}
+
+/// Noise in tiles of all sizes up to 16 segments each way.
+HeightMap noiseFaces(const Surface& surface) {
+    std::mt19937 random(7);
+    std::vector<ivec2> segments;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) segments.emplace_back(random() % 5, random() % 5);
+    return makeFaceMap(surface, segments,
+                       [&](int, const dvec2&) { return 0.15 * (double(random() % 2001) / 1000 - 1); });
+}
+
+void expectTight(const SurfaceModel& model, std::uint32_t& turn, const std::string& words) {
+    const std::vector<Path> paths = visitedPaths();
+    for (const RateKind kind : {RateKind::uniform2, RateKind::random, RateKind::levels}) {
+        const EdgeRates rates = zooRates(model, kind, ++turn);
+        for (const Path path : paths) {
+            if (path != paths[turn % paths.size()]) continue;
+            const Watertightness w =
+                checkWatertight(capturer().capture(model, {.path = path}, rates), boundarySegments(model, rates));
+            EXPECT_GT(w.triangles, 0u);
+            EXPECT_TRUE(w.isWatertight()) << fmt::format("{}, {}, {}: {} open edges, {} ulp", words, nameOf(kind),
+                                                         kPathNames[int(path)], w.openEdges, w.largestGapUlps);
+        }
+    }
+}
+
+TEST_F(ZooTiles, areWatertight) {
+    std::uint32_t turn = 0;
+    for (const Pen& pen : zooPens()) {
+        if (pen.scheme == Scheme::loop || pen.isSmall()) continue;
+        const Cage cage = pen.joined(), tiled = overTiles(cage);
+        const Surface surface = buildSurface(cage, {.scheme = pen.scheme, .isolation = 2});
+        const HeightMap faces = noiseFaces(surface), tiles = noiseTiles();
+        const std::vector<vec3> positions = pen.posedTogether(Pose::twist);
+        const SurfaceModel perFace(device(), {.surface = &surface, .cagePositions = positions, .height = &faces});
+        expectTight(perFace, turn, "per face, " + pen.cages.front().name);
+        const Surface tiledSurface = buildSurface(tiled, {.scheme = pen.scheme, .isolation = 2});
+        const SurfaceModel overSquares(device(),
+                                       {.surface = &tiledSurface, .cagePositions = positions, .height = &tiles});
+        expectTight(overSquares, turn, "tiles, " + pen.cages.front().name);
+        if (isQuickRun()) break;
+    }
+}
+
+std::vector<SampleQuery> gridQueries(const Surface& surface, int side) {
+    std::vector<SampleQuery> queries;
+    for (std::uint32_t face = 0; face < surface.faces.size(); ++face)
+        for (int j = 0; j <= side && surface.faces[face].root != kNoPatch; ++j)
+            for (int i = 0; i <= side; ++i) queries.push_back({face, vec2(i, j) / float(side)});
+    return queries;
+}
+
+/// Largest difference between the device's heights and slopes and those of the reference.
+struct MapErrors {
+    double height = 0, slope = 0;
+};
+MapErrors errorsOf(const Cage& cage, const Surface& surface, const HeightMap& device_, const HeightMap& expected) {
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &device_});
+    const ReferenceSurface reference(cage, {.isolation = 2});
+    const std::vector<SampleQuery> queries = gridQueries(surface, 13); // off the nodes, and off the borders of texels
+    const std::vector<SampleResult> results = sampler().sample(model, queries);
+    MapErrors errors;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const dvec2 uv(queries[i].uv);
+        const int face = int(queries[i].face);
+        const HeightSample sample =
+            sampleHeight(expected, {.face = face, .uv = uv, .st = reference.texture(face, uv).st});
+        errors.height = std::max(errors.height, std::abs(sample.h - double(results[i].h)));
+        errors.slope = std::max(errors.slope, glm::length(dvec2(sample.hs, sample.ht) - dvec2(results[i].gradient)));
+    }
+    return errors;
+}
+
+/// Smooth heights, different in each tile, without a step at borders.
+HeightMap smoothTiles(bool isSwapped) {
+    std::vector<HeightMap> maps;
+    std::vector<ivec2> places;
+    for (int t = -1; t < 4; ++t)
+        for (int s = -1; s < 4; ++s) {
+            const ivec2 at = isSwapped && t == 0 && s < 2 && s >= 0 ? ivec2(1 - s, 0) : ivec2(s, t);
+            maps.push_back(mapOf(32, 32, Wrap::clamp, [&](int x, int y) {
+                return std::sin(0.9 * (at.x + (x + 0.5) / 32)) * std::cos(1.3 * (at.y + 1 - (y + 0.5) / 32));
+            }));
+            places.emplace_back(s, t);
+        }
+    return makeTileSet(maps, places);
+}
+
+TEST_F(ZooTiles, areThoseOfTheReferenceAndNoOthers) {
+    const Cage cage = overTiles(cubeOfIslands());
+    const Surface surface = buildSurface(cage, {.isolation = 2});
+    const HeightMap right = smoothTiles(false), swapped = smoothTiles(true);
+    const MapErrors errors = errorsOf(cage, surface, right, right);
+    EXPECT_LT(errors.height, 1e-5);
+    EXPECT_LT(errors.slope, 1e-3);
+    EXPECT_GT(errorsOf(cage, surface, swapped, right).height, 0.01) << "two tiles in each other's place";
+
+    std::mt19937 random(3);
+    std::vector<ivec2> segments;
+    for (std::size_t f = 0; f < surface.faces.size(); ++f) segments.emplace_back(random() % 5, random() % 5);
+    const HeightMap faces =
+        makeFaceMap(surface, segments, [&](int, const dvec2&) { return double(random() % 2001) / 1e4; });
+    const MapErrors ofFaces = errorsOf(cage, surface, faces, faces);
+    EXPECT_LT(ofFaces.height, 1e-6);
+    EXPECT_LT(ofFaces.slope, 1e-4);
+    for (const MapFormat format : {MapFormat::half, MapFormat::unorm16, MapFormat::unorm8, MapFormat::bc4}) {
+        if (isQuickRun() && format != MapFormat::bc4) continue;
+        const EncodedMap encoded = encode(faces, format);
+        const SurfaceModel model(device(), {.surface = &surface,
+                                            .cagePositions = cage.positions,
+                                            .height = &encoded.decoded,
+                                            .encoding = &encoded.encoding});
+        const std::vector<SampleQuery> queries = gridQueries(surface, 5);
+        const std::vector<SampleResult> results = sampler().sample(model, queries);
+        for (std::size_t i = 0; i < queries.size(); ++i) {
+            const MapPlace place{.face = int(queries[i].face), .uv = dvec2(queries[i].uv)};
+            EXPECT_NEAR(double(results[i].h), sampleHeight(encoded.decoded, place).h, 1e-5);
+        }
+    }
+}
+
+// With a rate that divides the segments each vertex is a node, which is read by other code: the same points come out.
+TEST_F(ZooTiles, ofFacesAreTheSameOnTheirNodes) {
+    const Cage cage = cube();
+    const Surface surface = buildSurface(cage, {.isolation = 2});
+    std::mt19937 random(3);
+    const HeightMap map = makeFaceMap(surface, std::vector<ivec2>(surface.faces.size(), ivec2(4, 3)),
+                                      [&](int, const dvec2&) { return double(random() % 2001) / 1e4; });
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const EdgeRates rates{uniformRates(model, 8), Spacing::equal, {}};
+    EXPECT_TRUE(readsNodes(model, rates));
+    EXPECT_FALSE(readsNodes(model, {uniformRates(model, 7), Spacing::equal, {}}));
+    EXPECT_FALSE(readsNodes(model, {uniformRates(model, 16), Spacing::equal, {}}));
+    const std::vector<SampleResult> results = sampler().sample(model, gridQueries(surface, 8));
+    for (const Path path : visitedPaths()) {
+        const CapturedMesh mesh = capturer().capture(model, {.path = path}, rates);
+        for (const SampleResult& result : results) {
+            float nearest = 1e9f;
+            for (const vec3& p : mesh.positions) nearest = std::min(nearest, glm::length(p - result.q));
+            EXPECT_LT(nearest, 1e-5f) << kPathNames[int(path)];
+        }
+    }
+}
+
+} // namespace
+} // namespace relief::test
