@@ -162,7 +162,8 @@ TEST(FaceMaps, haveTheSlopesOfATextureAcrossEdges) {
             // Across side 1: this face's last node but one, and the neighbour's first but one.
             const FaceLink& link = map.links->links[8 * f + 2];
             ASSERT_TRUE(link.continues);
-            const double x = double(link.start) + uv.y * double(link.end - link.start);
+            const double x = double(link.start) + (uv.y - double(link.ownStart)) * double(link.end - link.start) /
+                                                      double(link.ownEnd - link.ownStart);
             const dvec2 beyond = link.side == 3   ? dvec2(1.0 / n, 1 - x)
                                  : link.side == 1 ? dvec2(1 - 1.0 / n, x)
                                  : link.side == 0 ? dvec2(x, 1.0 / n)
