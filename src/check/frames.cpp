@@ -103,7 +103,7 @@ SampleError errorOf(const FrameComparison& with, std::size_t number, const Sampl
     error.tangent = farther(distance(frame.limit.pu, result.pu), distance(frame.limit.pv, result.pv));
     error.limitNormal = degreesBetween(frame.normal, dvec3(result.n));
     const bool hasVectors = with.height != nullptr && with.height->vectors;
-    if (hasVectors && isAmbiguous(*with.height->vectors, frame.tex)) return error;
+    if (hasVectors && (isAmbiguous(*with.height->vectors, frame.tex) || frame.qu == dvec3(0))) return error;
     error.normal = degreesBetween(normalOf(frame, with.normal), dvec3(result.m));
     if (hasVectors)
         checkVectors(error, query, result, with);

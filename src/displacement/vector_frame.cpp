@@ -57,6 +57,15 @@ dvec2 insideOf(const ReferenceSurface& surface, const dvec2& uv) {
     return least > kStep ? uv : glm::mix(uv, center, 8 * kStep);
 }
 
+/// False at extraordinary vertices, where tangents are those of no derivative by (u,v).
+bool hasDerivatives(const ReferenceSurface& surface, int face, const dvec2& at, const LimitFrame& limit) {
+    const auto isDerivative = [&](const dvec2& step, const dvec3& tangent) {
+        const dvec3 difference = (surface.limit(face, at + step).p - surface.limit(face, at - step).p) / (2 * kStep);
+        return glm::length(difference - tangent) <= 0.01 * glm::length(tangent);
+    };
+    return isDerivative({kStep, 0}, limit.pu) && isDerivative({0, kStep}, limit.pv);
+}
+
 dvec3 directionOr(const dvec3& m, const dvec3& n) {
     const double length = glm::length(m);
     return length > 0 ? m / length : n;
@@ -74,6 +83,7 @@ DisplacedFrame displacedByVectors(const VectorReference& reference, const Vector
 
     // Differences where the basis turns, and where it is that of the point: the first-order normal.
     const dvec2 at = insideOf(reference.surface, uv), du(kStep, 0), dv(0, kStep);
+    if (!hasDerivatives(reference.surface, face, at, frame.limit)) return frame;
     const dmat3 basis = displacer.basisAt(at);
     const auto difference = [&](const dvec2& step) {
         return (displacer.pointAt(at + step) - displacer.pointAt(at - step)) / (2 * kStep);

@@ -72,7 +72,8 @@ struct VectorReference {
 };
 
 /// Evaluates the surface displaced by components that vary linearly with s and t around the point. Tangents are
-/// differences of q over the surface, which share no formula with the shaders.
+/// differences of q over the surface, which share no formula with the shaders. At extraordinary vertices there are
+/// none: q_u and q_v are 0, and all normals are the limit surface's.
 DisplacedFrame displacedByVectors(const VectorReference& reference, const VectorSample& sample, int face,
                                   const dvec2& uv);
 
