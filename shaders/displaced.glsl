@@ -2,13 +2,13 @@
 #ifndef RELIEF_DISPLACED_GLSL
 #define RELIEF_DISPLACED_GLSL
 
-#include "heights.glsl"
 #include "locations.glsl"
-#include "surface_point.glsl"
+#include "vectors.glsl"
 
 layout(constant_id = kIdNormal) const uint kNormal = kNormalFull;
 #ifdef RELIEF_HEIGHT_FUNCTION
 layout(constant_id = kIdHasSlopes) const bool kHasSlopes = false; // fragments bend normals by the function: vertices do not
+#include "function_samples.glsl"
 #endif
 
 // --- normals --------------------------------------------------------------------------------------------------------
@@ -34,11 +34,17 @@ vec2 heightDerivatives(SurfacePoint point, HeightSample height) {
 }
 
 // The normal asked for by --normal, not yet unit.
-vec3 displacedNormal(SurfacePoint point, HeightSample height) {
+vec3 displacedNormal(SurfacePoint point, Displacement d) {
     LimitFrame f = point.frame;
     vec3 n = point.n;
     float area = point.area;
     if (kNormal == kNormalLimit || !kHasHeight || point.isStraight) return n;
+    if (kVectorSpace != kVectorNone) {
+        vec3 qu, qv;
+        vectorTangents(point, d.vector, kNormal == kNormalFull, qu, qv);
+        return cross(qu, qv);
+    }
+    HeightSample height = d.height;
     vec2 dh = heightDerivatives(point, height);
     if (kNormal == kNormalFirstOrder) return firstOrderNormal(n, f.pu, f.pv, dh);
     vec3 nu = normalDerivative(n, area, f.pu, f.pv, f.puu, f.puv);
@@ -47,8 +53,13 @@ vec3 displacedNormal(SurfacePoint point, HeightSample height) {
 }
 
 // p_u and p_v become q_u and q_v; with first-order normals those of a surface whose n does not change.
-void displaceTangents(SurfacePoint point, HeightSample height, inout vec3 pu, inout vec3 pv) {
+void displaceTangents(SurfacePoint point, Displacement d, inout vec3 pu, inout vec3 pv) {
+    if (kVectorSpace != kVectorNone) {
+        vectorTangents(point, d.vector, kNormal == kNormalFull, pu, pv);
+        return;
+    }
     LimitFrame f = point.frame;
+    HeightSample height = d.height;
     vec2 dh = heightDerivatives(point, height);
     vec3 nu = vec3(0), nv = vec3(0);
     if (kNormal == kNormalFull) {
@@ -70,6 +81,7 @@ struct DisplacedSample {
     LimitFrame frame;
     vec3 n;          // unit limit normal of the frame
     vec2 gradient;   // (h_s, h_t); of a height function and of a map per face (h_u, h_v)
+    VectorSample vector;
     mat2 jacobian;   // of the texture coordinates
     vec4 gradientS;  // kHasTexGradients: as in varyings.glsl, in the model's own space
     vec4 gradientT;
@@ -89,7 +101,7 @@ vec2 ownTexCoords(uint face, vec2 uv) {
 // What slopes along n bend the normal of the drawn surface x by: with m = x_u x x_v, (x_u + a n) x (x_v + b n) = m - |m| (a U + b V) for
 // U = (x_v x n) / |m| and V = (n x x_u) / |m|; by s and t instead of u and v, s_u U + s_v V and t_u U + t_v V. Where the surface is
 // not displaced n is its normal, and these are the gradients of s and t along it. They are 0 where the surface has no two directions: nothing bends the normal there.
-void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
+void addTexGradients(inout DisplacedSample s, SurfacePoint point, Displacement d) {
     s.gradientS = s.gradientT = vec4(0);
 #ifdef RELIEF_HEIGHT_FUNCTION
     s.rest = point.rest.p;
@@ -98,14 +110,15 @@ void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample h
     if (point.isStraight) return;
     bool hasSlopes = kHasHeight && kNormal != kNormalLimit;
     vec3 xu = point.frame.pu, xv = point.frame.pv;
-    if (hasSlopes) displaceTangents(point, height, xu, xv);
+    if (hasSlopes) displaceTangents(point, d, xu, xv);
     vec3 m = cross(xu, xv);
     float square = dot(m, m);
     if (!(square > 0.0)) return;
     float area = sqrt(square);
-    vec3 gradientU = cross(xv, point.n) / area, gradientV = cross(point.n, xu) / area;
+    vec3 n = kVectorSpace != kVectorNone ? m / area : point.n; // nothing bends the normals of vector maps
+    vec3 gradientU = cross(xv, n) / area, gradientV = cross(n, xu) / area;
     mat2 J = point.tex.jacobian;
-    vec2 slopes = hasSlopes ? height.gradient / point.stretch : vec2(0);
+    vec2 slopes = hasSlopes ? d.height.gradient / point.stretch : vec2(0);
     s.gradientS = vec4(point.stretch * (J[0].x * gradientU + J[1].x * gradientV), slopes.x);
     s.gradientT = vec4(point.stretch * (J[0].y * gradientU + J[1].y * gradientV), slopes.y);
 #ifdef RELIEF_HEIGHT_FUNCTION
@@ -114,52 +127,32 @@ void addTexGradients(inout DisplacedSample s, SurfacePoint point, HeightSample h
 }
 
 // What belongs to the face that a point is seen from.
-void addAttributes(inout DisplacedSample s, SurfacePoint point, HeightSample height) {
-    s.normal = displacedNormal(point, height);
-    if (kHasTexGradients) addTexGradients(s, point, height);
+void addAttributes(inout DisplacedSample s, SurfacePoint point, Displacement d) {
+    s.normal = displacedNormal(point, d);
+    if (kHasTexGradients) addTexGradients(s, point, d);
     s.st = point.tex.st;
     s.frame = point.frame;
     s.n = point.n;
-    s.gradient = height.gradient;
+    s.gradient = d.height.gradient;
+    if (kVectorSpace != kVectorNone) s.vector = d.vector;
     s.jacobian = point.tex.jacobian;
 }
 
+Displacement displacementAt(SurfacePoint point, float level) {
+    Displacement d;
+    d.height = HeightSample(0.0, vec2(0));
+    if (!kHasHeight) return d;
 #ifdef RELIEF_HEIGHT_FUNCTION
-// How far along u or v the function's slope is taken: inputs.model.heightStep on the surface at rest, no more than 1/64 of a
-// patch of the base, where its tangent vanishes.
-float slopeStep(vec3 tangent) {
-    float size = length(tangent);
-    return size > 64.0 * inputs.model.heightStep ? inputs.model.heightStep / size : 1.0 / 64.0;
-}
-
-// h by the function, and (h_u, h_v) by central differences along the tangents: h_u = (h(p + d p_u, st + d st_u) - h(p - d p_u,
-// st - d st_u)) / 2d. Where fragments add all slopes, there are none here. One call in a loop: the compiler unfolds every one.
-HeightSample sampleFunction(LimitFrame rest, TexFrame tex) {
-    vec2 d = vec2(slopeStep(rest.pu), slopeStep(rest.pv));
-    HeightSample s = HeightSample(0.0, vec2(0));
-    for (uint i = 0u; i < (kNormal == kNormalLimit || kHasSlopes ? 1u : 5u); ++i) {
-        float along = i == 0u ? 0.0 : (i & 1u) == 1u ? 1.0 : -1.0;
-        vec2 step = along * (i < 3u ? vec2(d.x, 0.0) : vec2(0.0, d.y));
-        precise vec3 p = rest.p + step.x * rest.pu + step.y * rest.pv;
-        precise vec2 st = tex.st + tex.jacobian * step;
-        float h = heightOfFunction(p, kHasTexCoords ? st : vec2(0));
-        if (i == 0u) s.h = h;
-        else s.gradient += along * h * (i < 3u ? vec2(0.5 / d.x, 0.0) : vec2(0.0, 0.5 / d.y));
-    }
-    return s;
-}
-#endif
-
-HeightSample heightAt(SurfacePoint point, float level) {
-    if (!kHasHeight) return HeightSample(0.0, vec2(0));
-#ifdef RELIEF_HEIGHT_FUNCTION
-    HeightSample height = sampleFunction(point.rest, point.tex);
+    d.height = sampleFunction(point.rest, point.tex);
 #else
-    HeightSample height = sampleHeight(MapPlace(point.face, point.uv, point.tex.st), level);
+    d = lookUp(MapPlace(point.face, point.uv, point.tex.st), level);
 #endif
-    if (!kStretches) return height;
-    precise float h = point.stretch * height.h;
-    return HeightSample(h, point.stretch * height.gradient);
+    if (kStretches) {
+        precise float h = point.stretch * d.height.h;
+        d.height = HeightSample(h, point.stretch * d.height.gradient);
+    }
+    if (kVectorSpace != kVectorNone) stretchVector(d, point);
+    return d;
 }
 
 // Walks the faces that meet at the location, in the edge's fixed order: one of them where the surface is smooth, all where
@@ -173,7 +166,8 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
 #endif
     DisplacedSample s;
     precise vec3 direction = vec3(0);
-    vec3 ownersNormal = vec3(0);
+    vec3 ownersNormal = vec3(0), c = vec3(0);
+    SurfacePoint owners; // of vector maps
     uint count = max(location.incidenceCount, 1u);
     bool isOwn = false;
     for (uint i = 0u; i < count; ++i) {
@@ -191,24 +185,26 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
         direction += share * point.n;
         if (isUsed) {
             isOwn = incidence.face == face;
-            HeightSample height = heightAt(point, location.level);
+            Displacement d = displacementAt(point, location.level);
             if (i == 0u) {
                 s.p = point.frame.p;
-                s.h = height.h;
+                s.h = d.height.h;
                 ownersNormal = point.n;
+                if (kVectorSpace != kVectorNone) owners = point, c = d.vector.c;
             }
-            addAttributes(s, point, height);
+            addAttributes(s, point, d);
         }
     }
     // Normals that cancel (a fin, faces of opposite winding): the owner's.
     if (count > 1u) direction = dot(direction, direction) > 1e-6 ? normalize(direction) : ownersNormal;
     precise vec3 q = displacedPoint(s.p, direction, s.h);
+    if (kVectorSpace != kVectorNone) q = movedPoint(owners, direction, c);
     s.q = q;
     if (kHasTexGradients && !isOwn) {
         // Gradients are those of the drawn face's texture coordinates, which may differ from the owner's.
         Leaf leaf = findLeaf(face, faceUV);
         SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex, pose), leaf, faceUV, true);
-        addAttributes(s, point, heightAt(point, location.level));
+        addAttributes(s, point, displacementAt(point, location.level));
     } else if (kWantsTexCoords && !isOwn) {
         s.st = ownTexCoords(face, faceUV);
     }
@@ -223,11 +219,12 @@ DisplacedSample displaced(uint face, vec2 faceUV, SampleLocation location) {
 // The sample at a point of one face.
 DisplacedSample displacedAlone(SurfacePoint point, float level) {
     DisplacedSample s;
-    HeightSample height = heightAt(point, level);
-    addAttributes(s, point, height);
+    Displacement d = displacementAt(point, level);
+    addAttributes(s, point, d);
     s.p = point.frame.p;
-    s.h = height.h;
+    s.h = d.height.h;
     precise vec3 q = displacedPoint(s.p, s.n, s.h);
+    if (kVectorSpace != kVectorNone) q = movedPoint(point, s.n, d.vector.c);
     s.q = q;
     s.normal = unitOr(s.normal, s.n);
     return s;

@@ -121,15 +121,4 @@ HeightSample betweenLevels(MapPart part, float level) {
     return HeightSample(h, (1.0 - f) * fine.gradient + f * coarse.gradient);
 #endif
 }
-
-// kReadsNodes: all samples lie on nodes of one level.
-HeightSample sampleHeight(MapPlace place, float level) {
-    MapPart part = partAt(place);
-#ifndef RELIEF_STORAGE_TABLES
-    if (kReadsNodes) return sampleNode(part, kHasMips ? min(uint(level + 0.5), lastLevel(part)) : 0u);
-#endif
-    HeightSample s = betweenLevels(part, level);
-    if (kMapAddressing == kMapOfTiles && !part.isThere) return HeightSample(0.0, vec2(0));
-    return s;
-}
 #endif

@@ -20,6 +20,7 @@ layout(constant_id = kIdReadsRest) const bool kReadsRest = false; // heights dep
 #else
 #define kReadsRest kStretches
 #endif
+layout(constant_id = kIdVectorSpace) const uint kVectorSpace = kVectorNone;
 layout(constant_id = kIdMapAddressing) const uint kMapAddressing = kMapOfTexture; // of shared/maps.h
 layout(constant_id = kIdHasWideIndices) const bool kHasWideIndices = false;
 layout(constant_id = kIdHasTexGradients) const bool kHasTexGradients = false;

@@ -84,21 +84,27 @@ LimitFrame regular(ControlPoints points, vec2 uv) {
     return f;
 }
 
-// The frame of the texture coordinates on such a patch: two components, first derivatives.
+// The frame of the texture coordinates on such a patch: two components, first derivatives; second ones only where the
+// tangents of a vector map turn with them.
 struct TexRowSums {
-    vec2 x, xu;
+    vec2 x, xu, xuu;
 };
 
 TexRowSums sumTexRow(ControlPoints points, uint row, CurveWeights u) {
     uvec4 i = RELIEF_POINT_ROW(points, row);
     vec2 a = RELIEF_TEX_POINT(i.x), b = RELIEF_TEX_POINT(i.y), c = RELIEF_TEX_POINT(i.z), d = RELIEF_TEX_POINT(i.w);
-    return TexRowSums(u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d, u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d);
+    vec2 xuu = kVectorSpace == kVectorTangent ? u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d : vec2(0);
+    return TexRowSums(u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d, u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d, xuu);
 }
 
 void addTexRow(inout LimitFrame f, TexRowSums sums, CurveWeights v, uint row) {
     f.p.xy += v.w[row] * sums.x;
     f.pu.xy += v.w[row] * sums.xu;
     f.pv.xy += v.d[row] * sums.x;
+    if (kVectorSpace != kVectorTangent) return;
+    f.puu.xy += v.w[row] * sums.xuu;
+    f.puv.xy += v.d[row] * sums.xu;
+    f.pvv.xy += v.dd[row] * sums.x;
 }
 
 LimitFrame texFrameOfRows(TexRowSums rows[4], CurveWeights v) {

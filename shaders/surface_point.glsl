@@ -11,6 +11,7 @@ struct SurfacePoint {
     vec2 uv;
     LimitFrame frame;
     TexFrame tex;
+    vec3 texSecond;  // vector maps of tangent space: t_uu, t_uv and t_vv
     vec3 n;          // unit normal
     float area;      // |p_u x p_v|; at a straight corner its derivative along the diagonal
     bool isStraight; // at a straight corner: p_u and p_v are parallel and nothing can be derived from them
@@ -115,6 +116,7 @@ SurfacePoint surfacePointOf(PointFrames frames, PatchPoints patchPoints, Leaf le
     point.frame = frames.surface;
     point.tex = TexFrame(uv, mat2(1.0));
     if (hasTexture) point.tex = TexFrame(frames.texture.p.xy, mat2(frames.texture.pu.xy, frames.texture.pv.xy));
+    point.texSecond = hasTexture ? vec3(frames.texture.puu.y, frames.texture.puv.y, frames.texture.pvv.y) : vec3(0);
     point.stretch = 1.0;
     point.logStretch = vec2(0);
     precise vec3 normal = areaNormal(point.frame, patchPoints, leaf, uv, point.isStraight);

@@ -44,7 +44,8 @@ RELIEF_CONSTANT uint kIdHasOcclusion = 31u;       // light: occlusion.comp has r
 RELIEF_CONSTANT uint kIdMapAddressing = 32u;      // kMapOf... of shared/maps.h
 RELIEF_CONSTANT uint kIdReadsNodes = 33u;         // every sample lies on a node of a map per face, see heights.glsl
 RELIEF_CONSTANT uint kIdHasPictureTiles = 34u;    // pictures cover more than the unit square, see lookup.glsl
-RELIEF_CONSTANT uint kIdCount = 35u;
+RELIEF_CONSTANT uint kIdVectorSpace = 35u;        // kVector...
+RELIEF_CONSTANT uint kIdCount = 36u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;
@@ -80,6 +81,11 @@ RELIEF_CONSTANT uint kNormalFull = 2u;
 RELIEF_CONSTANT uint kNormalMapNone = 0u;
 RELIEF_CONSTANT uint kNormalMapTangent = 1u;
 RELIEF_CONSTANT uint kNormalMapObject = 2u;
+
+// What the components of a vector map are along; kVectorNone: heights move the surface along its normal.
+RELIEF_CONSTANT uint kVectorNone = 0u;
+RELIEF_CONSTANT uint kVectorTangent = 1u;
+RELIEF_CONSTANT uint kVectorObject = 2u;
 
 // raster_*.comp: the list of triangles for raster_large.comp. Its first three words are the workgroups of that
 // dispatch.

@@ -67,7 +67,8 @@ struct MapRecord {
 };
 
 // Maps of one model. A lookup chooses its record by one function, mapAt() of heights.glsl.
-RELIEF_CONSTANT uint kMostMaps = 1u;
+// Of a vector map the first three are its components.
+RELIEF_CONSTANT uint kMostMaps = 3u;
 
 #ifdef __cplusplus
 static_assert(sizeof(MapRecord) == 40 + 4 * kMostMapLevels);

@@ -23,10 +23,13 @@ struct SampleResult {
     vec2 gradient; // (h_s, h_t); of a height function (h_u, h_v)
     vec3 q;        // p + h n
     vec3 m;        // unit normal of the displaced surface, as --normal asks
+    // Only of a vector map: its components, cage units, and their derivatives by s and t (without texture coordinates
+    // by u and v).
+    vec3 c, cs, ct;
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(SampleQuery) == 12 && sizeof(SampleResult) == 36 * 4);
+static_assert(sizeof(SampleQuery) == 12 && sizeof(SampleResult) == 45 * 4);
 } // namespace relief
 #endif
 #endif

@@ -112,7 +112,8 @@ std::optional<Picture> checkPoints(Device& device, const SurfaceModel& model, co
     const std::vector<SampleError> errors =
         sampleErrors({&reference, object.heightMap(), normal, certificate.diagonal, heights}, samples.queries, results);
     certificate.frames = summarizeErrors(samples.queries, errors);
-    certificate.curvature = reportCurvature(samples, results);
+    const bool hasVectors = object.height && object.height->vectors;
+    certificate.curvature = hasVectors ? reportFolds(samples, results, errors) : reportCurvature(samples, results);
 
     // Where derivatives vanish, and where the map may disagree with itself.
     const std::vector<SampleQuery> corners = cornersOf(object.surface);

@@ -53,7 +53,9 @@ std::vector<float> heatValues(const Heat& heat) {
     std::vector<float> values;
     for (std::size_t i = 0; i < heat.results.size(); ++i) {
         const double error = errorHeat(heat.errors[i], heat.promises);
-        const double fold = heat.samples.hasCurvature[i] ? foldHeat(foldFactor(heat.results[i])) : 0;
+        const double fold = heat.samples.hasCurvature[i]
+                                ? foldHeat(heat.errors[i].foldFactor.value_or(foldFactor(heat.results[i])))
+                                : 0;
         values.push_back(float(fold > 0 ? -fold : error));
     }
     return values;

@@ -37,6 +37,54 @@ void addHeights(CLI::App& app, HeightDesc& height) {
            addEnum(app, "--map-format", height.format, kMapFormatChoices, "how the map is stored on the device"));
 }
 
+/// A vector map in place of a height map. Options are read in this order: the map, the space, the program's order and
+/// flips, then those that are named. They may be read without the map, before that is reported.
+void addVectors(CLI::App& app, HeightDesc& height) {
+    const char* group = "vector displacement";
+    const auto setPath = [&height](const std::string& path) {
+        height.path = path;
+        height.vectors.emplace();
+    };
+    CLI::Option* map = app.add_option_function<std::string>(
+        "--vector", setPath,
+        "vector displacement map of three channels instead of a height map: .exr .tif .png .hdr .jpg; --scale, --mid, "
+        "--channel (the first of the three), --wrap and --map-format are read as for heights");
+    listIn(group, "MAP", map->excludes(app.get_option("--height")));
+    const auto add = [&](CLI::Option* option, const char* value) { listIn(group, value, option->needs(map)); };
+    const auto addWords = [&](const char* name, const auto& table, const char* help, const auto& take) {
+        const std::vector<WordHelp> words = listWords(table);
+        const auto set = [take, &table](const std::string& word) {
+            for (const auto& row : table)
+                if (row.word == word) take(row.value);
+        };
+        return app.add_option_function<std::string>(name, set, describeWords(help, words))->check(oneOf(words));
+    };
+    add(addWords("--vector-space", kVectorSpaces, "what the components are along (default: tangent)",
+                 [&height](VectorSpace space) {
+                     if (height.vectors) height.vectors->space = space;
+                 }),
+        "SPACE");
+    add(addWords("--vector-preset", kVectorPresets, "order and signs of a program (default: none)",
+                 [&height](VectorPreset preset) {
+                     if (height.vectors) applyPreset(*height.vectors, preset);
+                 }),
+        "PROGRAM");
+    add(app.add_option_function<std::string>(
+            "--vector-order",
+            [&height](const std::string& order) {
+                if (height.vectors) height.vectors->order = order;
+            },
+            "the component that red, green and blue hold (default: xyz)"),
+        "AXES");
+    add(app.add_option_function<std::string>(
+            "--vector-flip",
+            [&height](const std::string& flip) {
+                if (height.vectors) height.vectors->flip = flip;
+            },
+            "components whose sign is turned, such as y or xz (default: none)"),
+        "AXES");
+}
+
 std::string listNames(const std::vector<std::string>& names) {
     std::string list;
     for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -85,7 +133,9 @@ void addObject(CLI::App& app, ObjectDesc& object) {
         ->required()
         ->option_text("CAGE");
     addSurfaceOptions(app, object);
+    addVectors(app, object.height);
     addHeightFunction(app, object.height);
+    app.get_option("--height-function")->excludes(app.get_option("--vector"));
     addMotion(app, object.motion);
 }
 

@@ -133,6 +133,9 @@ struct SampleError {
     // slopes are the reference's.
     bool isMisplaced = false; ///< q is farther from p + h n than 1e-6 of the diagonal and 1 % of |h|
     bool isMisturned = false; ///< the displaced normal is off by more than 0.1 degrees; by more where its terms cancel
+    // Of vector maps, by the device's own components:
+    std::optional<double> foldFactor{}; ///< computeFoldFactor
+    double firstOrderAngle = 0;         ///< degrees between the full and the first-order normal
 };
 
 /// Compares the device's answers with the reference: `results[i]` is the answer to `queries[i]`.
@@ -192,6 +195,9 @@ double foldFactor(const SampleResult& result);
 
 /// Evaluates the device's own frames: `results[i]` is the answer to `samples.queries[i]`.
 CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results);
+/// The same of vector maps, whose fold factors are those of `errors`.
+CurvatureReport reportFolds(const SurfaceSamples& samples, std::span<const SampleResult> results,
+                            std::span<const SampleError> errors);
 
 // --- seams --------------------------------------------------------------------------------------------------------
 

@@ -42,11 +42,13 @@ double normalAngle(const LimitFrame& f, const SampleResult& r) {
     return degreesBetween(normals.firstOrder, normals.full);
 }
 
-/// Sums angle times area into meanNormalAngle.
-void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& r, double weight) {
+/// Sums angle times area into meanNormalAngle. `error`: of a vector map, or null.
+void add(CurvatureReport& report, const SampleQuery& query, const SampleResult& r, double weight,
+         const SampleError* error) {
     const LimitFrame frame = frameOf(r);
     const NormalFrame normal = computeNormalFrame(frame);
-    const double factor = foldFactorOf(frame, normal, r.h), angle = normalAngle(frame, r);
+    const double factor = error != nullptr ? error->foldFactor.value_or(NAN) : foldFactorOf(frame, normal, r.h);
+    const double angle = error != nullptr ? error->firstOrderAngle : normalAngle(frame, r);
     if (!frame.hasTangentPlane() || !std::isfinite(factor + angle + normal.area)) {
         ++report.countWithoutCurvature;
         return;
@@ -69,17 +71,33 @@ double foldFactor(const SampleResult& result) {
     return foldFactorOf(frame, computeNormalFrame(frame), result.h);
 }
 
-CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results) {
+namespace {
+
+CurvatureReport report(const SurfaceSamples& samples, std::span<const SampleResult> results,
+                       const SampleError* firstError) {
     RELIEF_CHECK(results.size() == samples.queries.size());
     RELIEF_CHECK(samples.hasCurvature.size() == samples.queries.size());
     CurvatureReport report;
     for (std::size_t i = 0; i < samples.queries.size(); ++i)
         if (samples.hasCurvature[i])
-            add(report, samples.queries[i], results[i], samples.weights[i]);
+            add(report, samples.queries[i], results[i], samples.weights[i],
+                firstError != nullptr ? firstError + i : nullptr);
         else
             ++report.countWithoutCurvature;
     report.meanNormalAngle = report.area > 0 ? report.meanNormalAngle / report.area : 0;
     return report;
+}
+
+} // namespace
+
+CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results) {
+    return report(samples, results, nullptr);
+}
+
+CurvatureReport reportFolds(const SurfaceSamples& samples, std::span<const SampleResult> results,
+                            std::span<const SampleError> errors) {
+    RELIEF_CHECK(errors.size() == results.size());
+    return report(samples, results, errors.data());
 }
 
 } // namespace relief

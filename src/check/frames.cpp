@@ -4,6 +4,7 @@
 
 #include "check/angles.h"
 #include "check/check.h"
+#include "displacement/vector_map.h"
 
 namespace relief {
 namespace {
@@ -60,6 +61,34 @@ void checkDisplacement(SampleError& error, const DisplacedFrame& frame, const Sa
     error.isMisturned = !(certainty * degreesBetween(expected, dvec3(r.m)) <= kDegrees);
 }
 
+/// Whether T changes its side there, where texture coordinates are mirrored smoothly, or has no direction: such a map
+/// has no one displacement there.
+bool isAmbiguous(const VectorMap& map, const TexFrame& tex) {
+    constexpr double kSingular = 1e-4; // of the squares
+    const dmat2& J = tex.jacobian;
+    const double squares = glm::dot(J[0], J[0]) + glm::dot(J[1], J[1]);
+    return map.space == VectorSpace::tangent && !(std::abs(glm::determinant(J)) > kSingular * squares);
+}
+
+/// The same of vectors: the reference's surface moved by the device's own components.
+void checkVectors(SampleError& error, const SampleQuery& query, const SampleResult& r, const FrameComparison& with) {
+    constexpr double kPoint = 1e-6, kShareOfLength = 1e-2, kDegrees = 0.1;
+    const VectorSample sample{dvec3(r.c), dvec3(r.cs), dvec3(r.ct)};
+    const DisplacedFrame frame =
+        displacedByVectors({*with.reference, with.height->vectors->space}, sample, int(query.face), dvec2(query.uv));
+    const double length = glm::length(sample.c);
+    error.isMisplaced = !(glm::length(frame.q - dvec3(r.q)) <= kPoint * with.diagonal + kShareOfLength * length);
+    const dvec3& pu = frame.limit.pu;
+    const dvec3& pv = frame.limit.pv;
+    const double terms =
+        (glm::length(pu) + glm::length(frame.qu - pu)) * (glm::length(pv) + glm::length(frame.qv - pv));
+    const double certainty =
+        with.normal == NormalKind::limit ? 1 : std::min(glm::length(glm::cross(frame.qu, frame.qv)) / terms, 1.0);
+    error.isMisturned = !(certainty * degreesBetween(normalOf(frame, with.normal), dvec3(r.m)) <= kDegrees);
+    error.foldFactor = computeFoldFactor(frame);
+    error.firstOrderAngle = degreesBetween(frame.firstOrder, frame.full);
+}
+
 SampleError errorOf(const FrameComparison& with, std::size_t number, const SampleQuery& query,
                     const SampleResult& result) {
     const int face = int(query.face);
@@ -73,8 +102,13 @@ SampleError errorOf(const FrameComparison& with, std::size_t number, const Sampl
     if (!error.hasTangentPlane) return error;
     error.tangent = farther(distance(frame.limit.pu, result.pu), distance(frame.limit.pv, result.pv));
     error.limitNormal = degreesBetween(frame.normal, dvec3(result.n));
+    const bool hasVectors = with.height != nullptr && with.height->vectors;
+    if (hasVectors && (isAmbiguous(*with.height->vectors, frame.tex) || frame.qu == dvec3(0))) return error;
     error.normal = degreesBetween(normalOf(frame, with.normal), dvec3(result.m));
-    checkDisplacement(error, frame, result, with);
+    if (hasVectors)
+        checkVectors(error, query, result, with);
+    else
+        checkDisplacement(error, frame, result, with);
     return error;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "displacement/displacement.h"
+#include "displacement/vector_map.h"
 
 namespace relief {
 namespace {
@@ -90,7 +91,8 @@ DualNumber stretchSince(const LimitFrame& rest, const LimitFrame& now) {
     return stretch.value < kLargestStretch ? stretch : DualNumber{kLargestStretch};
 }
 
-/// The limit surface at a point, not displaced.
+} // namespace
+
 DisplacedFrame frameWithoutHeight(const ReferenceSurface& surface, int face, const dvec2& uv) {
     DisplacedFrame frame;
     frame.limit = surface.limit(face, uv);
@@ -98,6 +100,8 @@ DisplacedFrame frameWithoutHeight(const ReferenceSurface& surface, int face, con
     frame.normal = frame.firstOrder = frame.full = surface.normal(face, uv);
     return frame;
 }
+
+namespace {
 
 /// Fills in the point and the normals. Without a tangent plane the normal has no derivatives: all three normals stay
 /// that of the limit surface.
@@ -109,6 +113,14 @@ void displace(DisplacedFrame& frame, const DualNumber& height) {
     frame.full = unitOr(normals.full, frame.normal);
 }
 
+/// How much the surface has grown since the rest pose.
+DualNumber stretchAt(const ReferenceSurface& rest, const ReferenceSurface& now, int face, const dvec2& uv) {
+    const LimitFrame before = rest.limit(face, uv), after = now.limit(face, uv);
+    return before.hasTangentPlane() && after.hasTangentPlane()
+               ? stretchSince(before, after)
+               : stretchAtCorner(rest.areaNormal(face, uv), now.areaNormal(face, uv));
+}
+
 /// The height over the face, by the chain rule through the texture coordinates.
 DualNumber heightOver(const TexFrame& tex, const HeightSample& sample) {
     const dvec2 su = tex.jacobian[0], sv = tex.jacobian[1]; // (s_u, t_u) and (s_v, t_v)
@@ -116,6 +128,10 @@ DualNumber heightOver(const TexFrame& tex, const HeightSample& sample) {
 }
 
 } // namespace
+
+double computeStretch(const ReferenceSurface& rest, const ReferenceSurface& now, int face, const dvec2& uv) {
+    return stretchAt(rest, now, face, uv).value;
+}
 
 NormalFrame computeNormalFrame(const LimitFrame& frame) {
     const DualVector n = normalOf(frame);
@@ -130,19 +146,17 @@ DisplacedNormals computeDisplacedNormals(const LimitFrame& frame, double h, cons
 
 DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv,
                               const ReferenceSurface* rest) {
+    if (map != nullptr && map->vectors) {
+        const VectorSample sample = sampleVectors(*map->vectors, surface.texture(face, uv).st);
+        return displacedByVectors({surface, map->vectors->space, rest}, sample, face, uv);
+    }
     // The limit surface, and the height by the map alone.
     DisplacedFrame frame = frameWithoutHeight(surface, face, uv);
     if (map != nullptr) frame.height = sampleHeight(*map, {.face = face, .uv = uv, .st = frame.tex.st});
     const bool isPerFace = map != nullptr && map->addressing == Addressing::faces;
 
-    // How much the surface has grown since the rest pose.
     DualNumber stretch{1};
-    if (rest != nullptr) {
-        const LimitFrame before = rest->limit(face, uv);
-        stretch = before.hasTangentPlane() && frame.limit.hasTangentPlane()
-                      ? stretchSince(before, frame.limit)
-                      : stretchAtCorner(rest->areaNormal(face, uv), surface.areaNormal(face, uv));
-    }
+    if (rest != nullptr) stretch = stretchAt(*rest, surface, face, uv);
     const DualNumber height = stretch * heightOver(isPerFace ? TexFrame{} : frame.tex, frame.height);
     frame.height.h *= stretch.value, frame.height.hs *= stretch.value, frame.height.ht *= stretch.value;
     displace(frame, height);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -19,6 +20,8 @@ namespace relief {
 
 // --- height maps --------------------------------------------------------------------------------------------------
 
+struct VectorMap; // displacement/vector_map.h
+
 /// Values and what they mean: h(s,t) = scale * (texel - mid), bilinear between texel centres. t points up, row 0 is the
 /// top of the picture.
 struct HeightMap {
@@ -28,6 +31,8 @@ struct HeightMap {
     double scale = 1;          ///< cage units per unit of stored value
     Wrap wrap = Wrap::repeat;
     float lowest = 0, highest = 0; ///< range of the stored values
+    /// Not null: the surface is displaced by these vectors, and the texels are their lengths in cage units.
+    std::shared_ptr<const VectorMap> vectors{};
 
     Addressing addressing = Addressing::texture;
     std::vector<MapTile> tiles; ///< of sets, by rows of unit squares or by faces; texels are those of all tiles then,
@@ -215,6 +220,7 @@ struct DisplacedFrame {
     dvec3 normal{0}; ///< limit normal n
     dvec3 q{0};      ///< p + h n
     dvec3 firstOrder{0}, full{0};
+    dvec3 qu{0}, qv{0}; ///< derivatives of q by u and v; only of vector maps
 };
 
 /// Evaluates the displaced surface at (face,u,v) in double precision: the reference that the device is compared with.

@@ -89,6 +89,8 @@ Examination examineMap(const std::string& path, const DoctorOptions& options, co
     result.map = loadHeightMap(path, options.height, [](const std::string&) {}).decoded;
     if (result.map.addressing != Addressing::texture)
         fail(Failure::usage, "{}: one map over the unit square is examined; name the files of a set one by one", path);
+    if (result.map.addressing != Addressing::texture)
+        fail(Failure::usage, "{}: maps over one unit square are examined, no sets of tiles and no maps per face", path);
     result.map.scale /= subject.unit;
     result.bound = result.map.heightBound() * subject.unit;
 

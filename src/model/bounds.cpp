@@ -136,8 +136,7 @@ std::vector<TexBox> faceTexBoxes(const Surface& surface) {
         for (const TreeLeaf& leaf : leavesOf(surface.tree, face.root)) {
             if (!surface.hasTexCoords()) break;
             const Patch& patch = surface.patches[leaf.patchIndex];
-            const auto indices =
-                std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patch.texPointCount);
+            const auto indices = std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patch.texPointCount);
             box.add(patchBox<vec2>(indices, surface.texPoints, patch.texParam1));
         }
         boxes.push_back({box.lower, box.upper, std::uint32_t(boxes.size())});
@@ -166,8 +165,8 @@ std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> poi
         Box<vec3> box;
         for (const TreeLeaf& leaf : leavesOf(surface.tree, surface.faces[f].root)) {
             const Patch& patch = surface.patches[leaf.patchIndex];
-            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patch.pointCount),
-                                   points, patch.param1));
+            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patch.pointCount), points,
+                                   patch.param1));
         }
         if (box.isEmpty()) continue;
         bounds[f].add(dvec3(box.lower) - double(heightBounds[f]));

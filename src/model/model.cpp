@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "displacement/tile_levels.h"
+#include "displacement/vector_map.h"
 #include "model/pictures.h"
 #include "model/stages.h"
 
@@ -15,7 +16,8 @@ std::span<const std::byte> bytesOf(const std::vector<T>& array) {
 
 /// A map whose words are more than the device reads from one table is refused before anything is allocated.
 void checkMapSize(const Device& device, const HeightMap& map, MapFormat format) {
-    const std::uint64_t bytes = mapBytes(format, map), most = largestTable(device, 8);
+    const std::uint64_t maps = map.vectors ? 3 : 1;
+    const std::uint64_t bytes = maps * mapBytes(format, map), most = largestTable(device, 8);
     if (bytes <= most) return;
     const std::string size =
         map.tiles.empty() ? fmt::format("{} x {}", map.width, map.height) : fmt::format("{} tiles", map.tiles.size());
@@ -38,6 +40,44 @@ MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
     RELIEF_CHECK(words.firsts.size() <= kMostMapLevels);
     std::ranges::copy(words.firsts, record.firstWords);
     return record;
+}
+
+/// Appends the words of a map to those of others. Blocks of texels begin at an even word.
+void appendWords(MapWords& to, const MapWords& words, MapRecord& record) {
+    to.words.resize((to.words.size() + 1) / 2 * 2, 0);
+    const auto first = std::uint32_t(to.words.size());
+    for (std::uint32_t level = 0; level < record.levelCount; ++level) {
+        record.firstWords[level] += first;
+        to.firsts.push_back(record.firstWords[level]);
+        to.sizes.push_back(words.sizes[level]);
+    }
+    to.words.insert(to.words.end(), words.words.begin(), words.words.end());
+}
+
+/// The three components of a vector map, one after the other in one table.
+void uploadVectors(Device& device, const HeightMap& map, SurfaceModel& model) {
+    const VectorMap& vectors = *map.vectors;
+    const MapFormat format = vectors.encodings.front().format;
+    checkMapSize(device, map, format);
+    MapWords all;
+    std::array<MapRecord, 3> records;
+    double roundOff = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        RELIEF_CHECK(vectors.encodings[k].format == format);
+        const MapWords words = toWords(vectors.channels[k], vectors.encodings[k]);
+        records[k] = makeRecord(vectors.channels[k], words);
+        appendWords(all, words, records[k]);
+        roundOff += double(words.roundOff) * std::abs(vectors.channels[k].scale);
+        model.componentPyramids.emplace_back(vectors.channels[k], words.roundOff);
+    }
+    model.height = GpuHeightMap{uploadHeights(device, std::move(all), format),
+                                records[0],
+                                format,
+                                float(map.heightBound()),
+                                Addressing::texture,
+                                std::uint32_t(vectors.space),
+                                {records[1], records[2]}};
+    model.heightPyramid = HeightPyramid(map, float(roundOff / std::abs(map.scale)));
 }
 
 /// Halves of split edges around n-gons are half as long as cage edges, and so are the sides of an n-gon's corner quads
@@ -112,6 +152,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     // Heights first: the bounds of faces need their range.
     if (desc.function != nullptr) {
         setFunction(*desc.function);
+    } else if (desc.height != nullptr && desc.height->vectors) {
+        uploadVectors(device, *desc.height, *this);
     } else if (desc.height != nullptr) {
         const MapEncoding asFloats;
         const MapEncoding& encoding = desc.encoding != nullptr ? *desc.encoding : asFloats;
@@ -138,7 +180,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     faceHeightBounds = movesByFunction ? std::vector<float>(surface.faces.size(), height->heightBound)
                                        : relief::faceHeightBounds(heightPyramid, faceTexBoxes);
     faceBounds = relief::faceBounds(surface, refined, faceHeightBounds);
-    if (enclosesVolume(surface) && !movesByFunction) { // nothing bounds the slopes of a function
+    const bool movesByVectors = height && height->vectorSpace != kVectorNone;
+    if (enclosesVolume(surface) && !movesByFunction && !movesByVectors) { // nothing bounds the slopes of those
         faceNormals = relief::faceNormals(surface, refined);
         if (addressing() == Addressing::faces)
             for (FaceNormals& face : faceNormals) goByFace(face);

@@ -2,6 +2,7 @@
 // derived from a model (rates, tables of dicing) belongs to who derives it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,6 +13,7 @@
 #include "gpu/gpu.h"
 #include "mesh/mesh.h"
 #include "model/bounds.h"
+#include "shared/constants.h"
 #include "shared/inputs.h"
 #include "surface/surface.h"
 
@@ -38,6 +40,8 @@ struct GpuHeightMap {
     MapFormat format = MapFormat::real;
     float heightBound = 0; ///< largest |h|, cage units
     Addressing addressing = Addressing::texture;
+    std::uint32_t vectorSpace = kVectorNone;
+    std::array<MapRecord, 2> otherRecords{}; ///< of a vector map: the second and the third component
 };
 
 /// An edge on a map per face: how long it is in segments, and the highest less the lowest height along it.
@@ -134,7 +138,8 @@ struct SurfaceModel {
     std::vector<bool> edgeIsHalf;           ///< per edge: half of a cage edge beside an n-gon, or as long as one
     std::vector<bool> patchIsRegular;       ///< per patch: its points and its texture coordinates are bicubic
     HeightPyramid heightPyramid;
-    std::vector<TexBox> faceTexBoxes;     ///< texture coordinates of faces
+    std::vector<HeightPyramid> componentPyramids; ///< of a vector map; heightPyramid has its lengths
+    std::vector<TexBox> faceTexBoxes;             ///< texture coordinates of faces
     std::vector<Bounds> faceBounds;       ///< boxes around faces displaced by level 0 of the map; empty ones for holes
     std::vector<float> faceHeightBounds;  ///< largest |h| on each face in level 0 of the map, cage units
     std::vector<float> faceHeightRanges;  ///< FunctionHeights::faceRanges

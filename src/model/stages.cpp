@@ -1,5 +1,7 @@
 #include "model/stages.h"
 
+#include <algorithm>
+
 namespace relief {
 namespace {
 
@@ -107,6 +109,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdHasTexGradients] = hasTexGradients;
     values[kIdHasSlopes] = hasSlopes;
     values[kIdNormalMap] = normalMap;
+    values[kIdVectorSpace] = vectorSpace;
     values[kIdShading] = shading;
     values[kIdAddsLight] = addsLight;
     values[kIdHasOcclusion] = hasOcclusion;
@@ -126,6 +129,7 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
             .hasWideIndices = model.hasWideIndices,
             .hasStraightCorners = model.hasStraightCorners,
             .heightFunction = model.function ? model.function->number() : 0,
+            .vectorSpace = model.height ? model.height->vectorSpace : kVectorNone,
             .readsRest = model.points.rest.has_value()};
 }
 
@@ -239,6 +243,7 @@ void describe(const SurfaceModel& model, PassInputs& inputs, PassBindings& bindi
     bindings[kBindTexPoints] = model.texPointTable.binding();
     if (model.height) {
         inputs.model.maps[0] = model.height->record;
+        std::ranges::copy(model.height->otherRecords, inputs.model.maps + 1);
         inputs.model.heightBound = model.height->heightBound;
         if (!model.function) bindings[kBindHeight] = model.height->words.binding();
     }

@@ -32,6 +32,7 @@ struct ShaderConstants {
     bool hasTexGradients = false, hasSlopes = false;
     std::uint32_t normalMap = kNormalMapNone;
     std::uint32_t heightFunction = 0; ///< HeightFunction::number()
+    std::uint32_t vectorSpace = kVectorNone;
     bool readsRest = false;
     bool readsSampleBuffers = false, readsShadowCodes = false, writesIds = false, hasSampleColors = false;
     std::uint32_t shading = kShadingPhysical;

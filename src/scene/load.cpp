@@ -36,6 +36,20 @@ void checkUse(const ObjectDesc& desc, bool isDense) {
              desc.cage);
 }
 
+/// Vectors of an object do not turn with what moves its cage, and no normal is bent by vectors.
+void checkVectors(const ObjectDesc& desc) {
+    if (!desc.height.vectors) return;
+    const Detail detail = desc.height.detail;
+    if (detail == Detail::bump || detail == Detail::both)
+        fail(Failure::usage, "{}: vectors move the surface; --detail {} is for heights", desc.height.path,
+             wordOf(kDetails, detail));
+    if (desc.height.vectors->space == VectorSpace::object && !desc.motion.isStill())
+        fail(Failure::usage,
+             "{}: vectors of object space do not follow a cage that changes its shape; bake them as --vector-space "
+             "tangent",
+             desc.height.path);
+}
+
 /// Normals are bent and turned along texture coordinates. (u,v) of faces, which stand for them where heights displace,
 /// jump from face to face.
 void checkBentNormals(const ObjectDesc& desc, const Cage& cage) {
@@ -111,6 +125,7 @@ const Coordinates& LoadedObject::coordinates() const {
 }
 
 LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
+    checkVectors(desc);
     LoadedObject object;
     const double start = secondsNow();
     object.cage = readCage(desc.cage, warn);

@@ -66,6 +66,19 @@ void warnOfFlatTexCoords(const LoadedObject& object, const std::string& path, co
 
 namespace {
 
+/// Warns as loadHeights does. The map has its own encodings.
+HeightMap loadVectors(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
+    const HeightDesc& height = desc.height;
+    VectorOptions options = *height.vectors;
+    options.mid = height.mid, options.scale = height.scale, options.channel = height.channel;
+    options.format = height.format, options.wrap = height.wrap.value_or(options.wrap);
+    HeightMap map = loadVectorMap(height.path, options, warn);
+    if (!cage.hasTexCoords())
+        warn(fmt::format("{}: no texture coordinates: every face takes the whole map", desc.cage));
+    warnOutsideMap(desc, cage, height.path, warn);
+    return map;
+}
+
 /// Tiles that corners of faces lie in, each a little towards the middle of its face: on a border they would be others.
 void warnOfMissingTiles(const Cage& cage, const HeightMap& set, const std::string& path, const Warn& warn) {
     const TilePattern pattern = *findTilePattern(path);
@@ -113,6 +126,7 @@ void fitHeights(LoadedObject& object, const ObjectDesc& desc) {
 
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
     const HeightDesc& height = desc.height;
+    if (height.vectors) return {.decoded = loadVectors(desc, cage, warn), .encoding = {}};
     HeightOptions options{
         .mid = height.mid, .scale = height.scale, .channel = height.channel, .format = height.format, .limits = {}};
     options.wrap = height.wrap.value_or(options.wrap);
@@ -153,7 +167,7 @@ void fitUnitToHeights(LoadedObject& object, const Warn& warn) {
         for (vec3& p : object.cage.positions) p = dvec3(p) / factor;
         coordinates.unit *= factor;
     }
-    object.height->scale /= coordinates.unit;
+    scaleHeights(*object.height, 1 / coordinates.unit);
 }
 
 NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn) {
@@ -221,8 +235,7 @@ Image loadMatcap(const std::string& path) {
                 if (!std::isfinite(value) || value < 0)
                     fail(Failure::input, "{}: pixel {},{} is {}; light is a number from 0 on", path, x, y, value);
                 // Codes are sRGB (IEC 61966-2-1), made linear.
-                const float linear =
-                    value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+                const float linear = value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
                 ball.texels.push_back(info.isFloat ? value : linear);
             }
     return ball;

@@ -32,6 +32,7 @@ struct HeightDesc {
     std::string channel;
     std::optional<Wrap> wrap; ///< default: repeat, with a warning where texture coordinates leave 0..1
     std::optional<MapFormat> format;
+    std::optional<VectorOptions> vectors; ///< `path` is a vector map of this space, order and flips
     HeightSpace space = HeightSpace::absolute;
     Detail detail = Detail::displacement; ///< for verbs that draw pictures
 };
@@ -251,7 +252,6 @@ Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textu
 bool isPicturePath(const std::string& path);
 
 // --- devices ------------------------------------------------------------------------------------------------------
-
 /// A way to make triangles, and why it suits a device.
 struct PathChoice {
     Path path = Path::grid;

@@ -130,9 +130,14 @@ std::vector<EdgeFootprint> EdgeRater::Parts::measureFootprints(const SurfaceMode
     }
     const std::vector<float> words = measure({.file = "footprints.comp", .floatCount = kFootprintFloats}, model, {});
     for (std::size_t i = 0; i < words.size(); i += kFootprintFloats) {
-        const Range range =
-            model.heightPyramid.range({vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4])});
-        edges.push_back({words[i], range.highest - range.lowest});
+        const TexBox box{vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4])};
+        const Range range = model.heightPyramid.range(box);
+        vec3 differences(range.highest - range.lowest, 0, 0);
+        for (std::size_t k = 0; k < model.componentPyramids.size(); ++k) {
+            const Range component = model.componentPyramids[k].range(box);
+            differences[int(k)] = component.highest - component.lowest;
+        }
+        edges.push_back({words[i], glm::length(differences)});
     }
     return edges;
 }

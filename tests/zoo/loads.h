@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "cages.h"
+#include "displacement/vector_map.h"
 #include "frame/device.h"
 
 namespace relief::test {
@@ -117,7 +118,20 @@ HeightMap mapOf(int width, int height, Wrap wrap, const Value& value) {
     return makeHeightMap(width, height, std::move(texels), 0.1, 0.15, wrap);
 }
 
-/// The last one has a level of its own in each of 8 x 8 cells: islands differ wherever they lie.
+inline constexpr std::size_t kVectorMaps = 2; ///< the last ones of zooMaps()
+
+/// Three waves or noise in the components.
+inline HeightMap zooVectors(VectorSpace space, int side) {
+    std::mt19937 random(5);
+    Image image{.width = side, .height = side, .channels = 3, .texels = {}};
+    for (int i = 0; i < 3 * side * side; ++i)
+        image.texels.push_back(space == VectorSpace::object
+                                   ? float(random() % 2001) / 1000 - 1
+                                   : float(std::sin(0.3 * (i / 3 % side) + i % 3 + 0.1 * (i / 3 / side))));
+    return makeVectorMap(image, {.space = space, .scale = 0.12, .limits = {}});
+}
+
+/// The one of seams has a level of its own in each of 8 x 8 cells: islands differ wherever they lie.
 inline std::vector<NamedMap> zooMaps() {
     std::mt19937 random(3);
     const auto noise = [&](int, int) { return double(random() % 2001) / 1000 - 1; };
@@ -130,7 +144,9 @@ inline std::vector<NamedMap> zooMaps() {
             {"smooth heights", sineMap(64, 0.15)},
             {"noise", mapOf(48, 31, Wrap::repeat, noise)},
             {"checkerboard", mapOf(32, 32, Wrap::clamp, [](int x, int y) { return (x + y) % 2 == 0 ? 1 : -1; })},
-            {"seams that disagree", mapOf(64, 64, Wrap::repeat, cells)}};
+            {"seams that disagree", mapOf(64, 64, Wrap::repeat, cells)},
+            {"vectors along T, B and N", zooVectors(VectorSpace::tangent, 64)},
+            {"vectors of the object", zooVectors(VectorSpace::object, 32)}};
 }
 
 // --- rates -------------------------------------------------------------------------------------------------------
