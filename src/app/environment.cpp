@@ -30,8 +30,8 @@ SampleType chooseSample(const std::string& target) {
 int convertFile(const EnvironmentArgs& args) {
     const SampleType sample = chooseSample(args.target);
     const std::vector<std::string> targets = listEnvironmentFiles(args.target);
-    const EnvironmentShape shape = args.shape.value_or(targets.size() > 1 ? EnvironmentShape::cube
-                                                                          : EnvironmentShape::equirect);
+    const EnvironmentShape shape =
+        args.shape.value_or(targets.size() > 1 ? EnvironmentShape::cube : EnvironmentShape::equirect);
     for (const std::string& target : targets) checkOutput(target, listEnvironmentFiles(args.source));
     const EnvironmentFile file = readEnvironment(args.source, args.sourceShape);
 
@@ -59,9 +59,10 @@ int convertFile(const EnvironmentArgs& args) {
 
 Run addEnvironment(CLI::App& app) {
     auto args = std::make_shared<EnvironmentArgs>();
-    app.add_option("environment", args->source,
-                   "environment: .hdr .exr .tif .png; six files where the name has {face}, which stands for px nx py ny "
-                   "pz nz")
+    app.add_option(
+           "environment", args->source,
+           "environment: .hdr .exr .tif .png; six files where the name has {face}, which stands for px nx py ny "
+           "pz nz")
         ->required()
         ->option_text("IN");
     app.add_option("-o,--output", args->target, "picture to write: .exr .tif .png; six files where the name has {face}")

@@ -121,7 +121,7 @@ struct FrameStats {
     /// Times of the passes on the device, milliseconds; 0 where it cannot time.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
     double occlusionMs = 0, otherLightsMs = 0; ///< shadows and light of Lighting::others
-    double wallMs = 0;       ///< rates to pixels on the host
+    double wallMs = 0;                         ///< rates to pixels on the host
     PipelineCounts pipeline; ///< of the color pass, where RenderOptions asks for it and the device can
 };
 

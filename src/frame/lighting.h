@@ -60,8 +60,8 @@ struct Material {
     std::optional<float> metallic;
 };
 
-/// Coefficients of c = k_a c_a + k_d c_d (n.l) + k_s c_s (v.r)^e (Hart, eq. 16.20), with the albedo for c_a and c_d, and
-/// white for c_s, all in the light of Lighting::key.
+/// Coefficients of c = k_a c_a + k_d c_d (n.l) + k_s c_s (v.r)^e (Hart, eq. 16.20), with the albedo for c_a and c_d,
+/// and white for c_s, all in the light of Lighting::key.
 struct PhongCoefficients {
     float ambient = 0.2f, diffuse = 0.8f, specular = 0.3f, exponent = 40;
 
@@ -89,8 +89,8 @@ GpuMatcap uploadMatcap(Device& device, Image ball);
 /// ambient and diffuse light is multiplied with the albedo by, and the highlight. n.l goes from 0 at the left to 1.
 Image makeShadingTable(const PhongCoefficients& phong);
 
-/// Renders a ball of a material in a light, without shadows, as an eye far away sees it from an azimuth and elevation in
-/// degrees: `side` pixels squared, the ball filling them, 3 channels of linear light; black outside.
+/// Renders a ball of a material in a light, without shadows, as an eye far away sees it from an azimuth and elevation
+/// in degrees: `side` pixels squared, the ball filling them, 3 channels of linear light; black outside.
 Image renderMatcap(Device& device, const Material& material, const Lighting& lighting, const dvec2& from,
                    int side = 512);
 

@@ -85,7 +85,7 @@ struct Renderer::Parts {
         FrameStats stats;
 
         std::uint32_t shading = kShadingPhysical; ///< kShading...
-        bool writesIds = false;                   ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
+        bool writesIds = false; ///< of the compute rasterizer: raster_resolve.comp makes normals and colours of them
 
         [[nodiscard]] bool hasInstances() const { return drawn.size() > 1; }
         [[nodiscard]] bool rastersInCompute() const {
@@ -100,7 +100,7 @@ struct Renderer::Parts {
             if (!technique.isLit || shading == kShadingMatcap) return {};
             return options.lighting.others;
         }
-        [[nodiscard]] bool castsShadows() const { 
+        [[nodiscard]] bool castsShadows() const {
             return options.lighting.castsShadows && technique.isLit && shading != kShadingMatcap;
         }
     };

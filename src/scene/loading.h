@@ -15,9 +15,6 @@ FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage);
 /// the file has several layers and where values are clamped to 0..1.
 Image loadAlbedo(const std::string& path, const Warn& warn);
 
-/// Whether a material is so smooth that it shows the environment as it is.
-inline bool isMirror(const MaterialDesc& material) { return material.roughness < 0.05f; }
-
 /// Reads a square color picture of a ball. Colors of 8 and 16 bits are sRGB, as --albedo; floats are linear.
 /// Throws Failure::input for other pictures and for texels that are not finite.
 Image loadMatcap(const std::string& path);

@@ -142,8 +142,7 @@ Image loadMatcap(const std::string& path) {
                 if (!std::isfinite(value) || value < 0)
                     fail(Failure::input, "{}: pixel {},{} is {}; light is a number from 0 on", path, x, y, value);
                 // Codes are sRGB (IEC 61966-2-1), made linear.
-                const float linear =
-                    value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
+                const float linear = value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
                 ball.texels.push_back(info.isFloat ? value : linear);
             }
     return ball;

@@ -59,9 +59,12 @@ struct MotionDesc {
 struct MaterialDesc {
     std::string albedo;        ///< path of a color map, or empty
     std::optional<vec3> color; ///< linear, multiplies the map; default: that of Material, or white with a map
-    float roughness = Material().roughness; ///< below 0.05: as if metallic were 0
-    std::optional<float> metallic;          ///< of Material
+    float roughness = Material().roughness;
+    std::optional<float> metallic; ///< of Material; default: 0 for a roughness below 0.05
     NormalMapDesc normalMap;
+
+    /// Whether it is a material that conserves energy, and may be a mirror.
+    [[nodiscard]] bool conservesEnergy() const { return metallic || roughness < 0.05f; }
 };
 
 struct ObjectDesc {
@@ -75,7 +78,7 @@ struct ObjectDesc {
 };
 
 struct LightingDesc {
-    std::optional<dvec2> key; ///< azimuth and elevation of the key light, degrees; default: left of the camera
+    std::optional<dvec2> key;          ///< azimuth and elevation of the key light, degrees; default: left of the camera
     std::optional<double> keyStrength; ///< default: that of Lighting
     std::optional<vec3> keyColor;
     std::vector<DistantLight> others;

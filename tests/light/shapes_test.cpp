@@ -27,7 +27,8 @@ Errors errorsOf(const EnvironmentPicture& picture, const Light& light, int count
     return errors;
 }
 
-// Directions that stand in a sphere map's last ring of texels are what it cannot hold: 4 / sqrt(side) radians around -Z.
+// Directions that stand in a sphere map's last ring of texels are what it cannot hold: 4 / sqrt(side) radians around
+// -Z.
 TEST(Shapes, showTheLightOfEveryDirection) {
     for (const EnvironmentShape shape : kShapes) {
         const bool isSphere = shape == EnvironmentShape::sphere;
@@ -144,7 +145,9 @@ TEST(Conversions, keepOrderOrientationAndHandedness) {
             EXPECT_LT(glm::length(lookUp(there, {0, 0.5, 1})), 0.1) << "the arrow behind the eye";
             EXPECT_LT(glm::length(lookUp(there, {-0.74, 0, 1}) - dvec3(1)), 0.1) << "and the square to its right";
         }
-        expectLabels(convert(convert(cube, shape, shape == EnvironmentShape::sphere ? 384 : 128), EnvironmentShape::cube, 48), "there and back");
+        expectLabels(
+            convert(convert(cube, shape, shape == EnvironmentShape::sphere ? 384 : 128), EnvironmentShape::cube, 48),
+            "there and back");
     }
 }
 
@@ -156,9 +159,8 @@ TEST(Blur, keepsEvenLightAndSpreadsALampByItsLobe) {
     for (const Image& face : blur(even, 0.6).images)
         for (std::size_t i = 0; i < face.texels.size(); i += 3) EXPECT_NEAR(face.texels[i], 0.7, 1e-4);
     // A lamp along +X: at an angle a the lobe of GGX has n.h = cos(a/2), and falls off by D(h) (n.l).
-    const EnvironmentPicture lamp = drawPicture(EnvironmentShape::equirect, 64, [](const dvec3& d) {
-        return dvec3(d.x > std::cos(0.1) ? 100 : 0);
-    });
+    const EnvironmentPicture lamp = drawPicture(EnvironmentShape::equirect, 64,
+                                                [](const dvec3& d) { return dvec3(d.x > std::cos(0.1) ? 100 : 0); });
     const double roughness = 0.6, a2 = std::pow(roughness, 4);
     const EnvironmentPicture blurred = blur(lamp, roughness);
     const auto lobe = [&](double angle) {
