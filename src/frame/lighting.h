@@ -13,7 +13,8 @@ namespace relief {
 /// An environment on the host, ready to light with: equirectangular, whatever shape it was read in.
 struct Environment {
     std::vector<Image> levels; ///< RGB radiance; level l is seen by a surface of roughness l / (levels.size() - 1)
-    vec3 irradiance[9];        ///< coefficients of polynomials of the normal, see light.comp
+    vec3 irradiance[9];        ///< coefficients of polynomials of the normal, see environment.glsl
+    bool isSharp = false; ///< level l of h rows is seen by a roughness of sqrt(2 pi / h): its lobe is two texels wide
 };
 
 /// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
@@ -28,6 +29,10 @@ Environment loadEnvironment(const std::string& path);
 struct GpuEnvironment {
     Texture levels; ///< one mip per level, RGBA
     vec3 irradiance[9]{};
+    bool isSharp = false;
+
+    /// The level that a surface of a roughness sees, from 0 on.
+    [[nodiscard]] float levelOf(float roughness) const;
 };
 
 /// Uploads a copy of `environment`: later changes of it do not show.
