@@ -89,12 +89,14 @@ dvec3 studioLight(const dvec3& d) {
 
 } // namespace
 
-Environment studioEnvironment() {
+EnvironmentPicture makeStudioPicture() {
     Image image = blank(2 * kStudioHeight, kStudioHeight);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) set(image, x, y, studioLight(texelDirection(image, x, y)));
-    return prepare(std::move(image));
+    return {.shape = EnvironmentShape::equirect, .images = {std::move(image)}};
 }
+
+Environment studioEnvironment() { return prepare(makeStudioPicture().images.front()); }
 
 Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp) {
     RELIEF_CHECK(picture.images.size() == std::size_t(countImages(picture.shape)));

@@ -167,6 +167,18 @@ private:
     std::unique_ptr<Parts> parts_;
 };
 
+/// What is seen from a point, and what is behind it.
+struct SurroundingsDesc {
+    dvec3 at{0}; ///< in the world
+    int side = 256;
+    const EnvironmentPicture* behind = nullptr; ///< where the instances are not; null: the built-in studio
+};
+
+/// Renders a cube of all that is around a point by six pictures of 90 degrees: an environment for what is put there and
+/// mirrors it. Cameras of the options are ignored, all else holds; depth goes as far as RenderOptions::bounds does.
+EnvironmentPicture captureSurroundings(Device& device, std::span<const Instance> instances, RenderOptions options,
+                                       const SurroundingsDesc& desc);
+
 enum class Background { studio, transparent, color };
 struct Finish {
     Background background = Background::studio;

@@ -20,6 +20,9 @@ struct Environment {
 /// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
 Environment studioEnvironment();
 
+/// The studio as a picture.
+EnvironmentPicture makeStudioPicture();
+
 /// Prepares a picture of any shape. Its first level has 512 rows at most, or 2048 where mirrors show it (`isSharp`).
 Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp = false);
 /// Loads an environment of the shape that its sides say. Throws as readEnvironment does.

@@ -42,6 +42,16 @@ TEST_F(LightVerbs, convertEnvironmentsAndSayWhatTheyWere) {
                       "--shape cube --layout strip --blur 0.5 --side 8"));
     EXPECT_EQ(readImageInfo(folder / "strip.png").width, 48);
 
+    // A scene, seen from a point: the cube in front of it, and the sky elsewhere.
+    expectDone(relief({"environment", "--from", cube, "--environment", sky, "-o", folder / "room_{face}.exr", "-q"},
+                      "--at 0,0,4 --side 32 --rate 4"));
+    const Image front = readImage(folder / "room_pz.exr"), behind = readImage(folder / "room_nz.exr");
+    EXPECT_NEAR(front.at(2, 16)[2], 0.5, 0.01) << "the sky beside the cube";
+    EXPECT_GT(std::abs(front.at(16, 16)[2] - 0.5f), 0.02f) << "the cube";
+    for (int x = 0; x < 32; x += 5) EXPECT_NEAR(behind.at(x, 16)[2], 0.5, 0.01) << "nothing but sky";
+    expectRefused(relief({"environment", "--from", cube, "-o", folder / "x.exr"}), Failure::usage, {"--at"});
+    expectRefused(relief({"environment", "-o", folder / "x.exr"}), Failure::usage, {"--from"});
+
     expectRefused(relief({"environment", sky, "-o", folder / "g_{face}.exr"}, "--shape sphere"), Failure::usage,
                   {"six faces"});
     expectRefused(relief({"environment", sky, "-o", sky}), Failure::usage, {sky});

@@ -184,6 +184,37 @@ TEST_F(ShadingOnDevice, roughMirrorsAreBlurred) {
     EXPECT_LT(brightest[2], 0.6f * brightest[1]);
 }
 
+// A picture from the captured point, in a direction that is no face's, shows what the cube holds along its rays.
+TEST_F(ShadingOnDevice, surroundingsAreWhatAnEyeSeesThere) {
+    BallScene scene;
+    const EnvironmentPicture sky = equirectOf(64, smoothLight);
+    const GpuEnvironment environment = uploadEnvironment(device(), makeEnvironment(sky));
+    scene.options.lighting.environment = &environment;
+    const Instance ball(scene.model, {.albedo = {0.9f, 0.2f, 0.1f}});
+    const dvec3 at(0.4, -0.7, 2.2);
+    const EnvironmentPicture cube =
+        captureSurroundings(device(), std::span(&ball, 1), scene.options, {.at = at, .side = 256, .behind = &sky});
+    const dvec3 back = glm::normalize(dvec3(0.5, 0.4, 1)), right = glm::normalize(glm::cross(dvec3(0, 1, 0), back)),
+                up = glm::cross(back, right);
+    scene.options.camera = {.eye = at, .target = at - back, .fieldOfView = 60, .nearDistance = 0.1, .farDistance = 10};
+    const Image seen = scene.renderer.render(ball, scene.options).image();
+    double sum = 0;
+    int balls = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const double tangent = std::tan(glm::radians(30.0));
+            const dvec3 ray = glm::normalize(((2 * x + 1.0) / kSide - 1) * tangent * right -
+                                             ((2 * y + 1.0) / kSide - 1) * tangent * up - back);
+            const dvec3 held = lookUp(cube, ray), far = smoothLight(ray);
+            const float* c = seen.at(x, y);
+            for (int i = 0; i < 3; ++i) sum += std::abs(c[i] + (1 - c[3]) * far[i] - held[i]);
+            balls += c[3] == 1;
+        }
+    EXPECT_GT(balls, kSide * kSide / 10);
+    EXPECT_LT(balls, kSide * kSide * 9 / 10);
+    EXPECT_LT(sum / (3 * kSide * kSide), 0.01); // outlines lie between pixels
+}
+
 // --- shading by dot products and by pictures ----------------------------------------------------------------------
 
 struct TorusScene {
