@@ -26,11 +26,11 @@ float mirrorFootprint(vec3 mirrored) {
 }
 
 // The level of the environment whose texels are as large as what a pixel mirrors, or as rough as the surface. Levels of less
-// than 32 rows are blurred as rough surfaces do it, which is too much for a pixel's footprint.
+// than 128 rows are blurred as rough surfaces do it, which is too much for a pixel's footprint.
 float mirrorLevel(vec3 mirrored, Material material) {
     float rows = float(textureSize(environmentMap, 0).y), texel = kPi / rows;
     float footprint = log2(max(mirrorFootprint(mirrored), texel) / texel);
-    return max(material.environmentLevel, min(footprint, max(log2(rows / 32.0), 0.0)));
+    return max(material.environmentLevel, min(footprint, max(log2(rows / 128.0), 0.0)));
 }
 
 // GGX as in keySpecular(), without Fresnel's factor. The sun and lamps are not points: the lobe has a least width.

@@ -44,8 +44,9 @@ void project(const Image& image, vec3 irradiance[9]) {
     }
 }
 
-/// The roughness whose lobe is two texels of a picture of so many rows wide.
-double roughnessOfRows(int rows) { return std::min(1.0, std::sqrt(2 * kPi / rows)); }
+/// The roughness that the level of so many rows of a sharp environment is for. The lobe of GGX around what is mirrored
+/// has half its height at 1.3 r^2 radians to either side, which is 1.6 texels.
+double roughnessOfRows(int rows) { return std::min(1.0, 2 / std::sqrt(rows)); }
 
 Environment prepare(Image base, bool isSharp = false) {
     const int largest = isSharp ? kSharpHeight : kLargestHeight;
@@ -56,9 +57,11 @@ Environment prepare(Image base, bool isSharp = false) {
     // Level sizes halve, roughness grows evenly from 0 at the first to 1 at the last; of a sharp one as its texels do.
     const auto last = double(environment.levels.size() - 1);
     std::size_t source = 0;
-    while (environment.levels[source].height > 2 * kFilteredHeight) ++source;
+    while (environment.levels[source].height > (isSharp ? 4 : 2) * kFilteredHeight) ++source;
     const Image light = environment.levels[source];
-    for (std::size_t level = source + 1; level < environment.levels.size(); ++level) {
+    // A sharp one of at most as many rows has its first level for mirrors.
+    const std::size_t first = isSharp && source > 0 ? source : source + 1;
+    for (std::size_t level = first; level < environment.levels.size(); ++level) {
         Image& image = environment.levels[level];
         const double roughness = isSharp ? roughnessOfRows(image.height) : double(level) / last;
         image = convolved(light, image.width, image.height, roughness);
@@ -133,7 +136,7 @@ GpuEnvironment uploadEnvironment(Device& device, const Environment& environment)
 float GpuEnvironment::levelOf(float roughness) const {
     const auto last = float(levels.desc.mipCount - 1);
     if (!isSharp) return roughness * last;
-    const double rows = levels.desc.height, level = std::log2(rows * roughness * roughness / (2 * kPi));
+    const double rows = levels.desc.height, level = std::log2(rows * roughness * roughness / 4);
     return std::clamp(float(level), 0.0f, last); // of roughness 0 it is -infinity
 }
 

@@ -14,7 +14,7 @@ namespace relief {
 struct Environment {
     std::vector<Image> levels; ///< RGB radiance; level l is seen by a surface of roughness l / (levels.size() - 1)
     vec3 irradiance[9];        ///< coefficients of polynomials of the normal, see environment.glsl
-    bool isSharp = false; ///< level l of h rows is seen by a roughness of sqrt(2 pi / h): its lobe is two texels wide
+    bool isSharp = false;      ///< level l of h rows is seen by a roughness of 2 / sqrt(h)
 };
 
 /// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
