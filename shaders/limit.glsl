@@ -87,6 +87,8 @@ vec3 controlPoint(ControlPoints points, uint k) {
 #include "quad_patches.glsl"
 #endif
 
+#include "end_caps.glsl"
+
 #ifdef RELIEF_GENERIC_BASIS
 
 // --- any patch, by OpenSubdiv's generic basis: the check of the forms above -----------------------------------------
@@ -112,8 +114,10 @@ LimitFrame generic(ControlPoints points, vec2 uv) {
 // The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it (in x and y).
 LimitFrame patchFrame(ControlPoints points, vec2 uv) {
 #ifdef RELIEF_TRIANGLES
+    if (points.type == kPatchExactTriangle) return exactCap(points, uv);
     return trianglePatch(points, uv);
 #else
+    if (points.type == kPatchExactQuad) return exactCap(points, uv);
 #ifdef RELIEF_GENERIC_BASIS
     if (kGenericBasis) return generic(points, uv);
 #endif

@@ -8,6 +8,7 @@
 #include "check/check.h"
 #include "displacement/displacement.h"
 #include "distance/distance.h"
+#include "doctor/doctor.h"
 #include "formula/formula.h"
 #include "frame/frame.h"
 #include "gpu/gpu.h"
@@ -20,3 +21,4 @@
 #include "scene/scene.h"
 #include "surface/surface.h"
 #include "triangles/triangles.h"
+#include "view/view.h"

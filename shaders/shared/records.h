@@ -17,7 +17,9 @@
 // is Surface::sectorFaces of the incidence. A patch has the texel where the indices of its control points begin: each
 // less its base, eight 16-bit numbers per texel; those of its texture coordinates follow after `texels` texels. Where
 // the indices of a patch are too far apart for 16 bits all patches have a base of 0 and four 32-bit numbers per texel
-// (kHasWideIndices).
+// (kHasWideIndices). Before the indices of an exact cap (kPatchExactQuad, kPatchExactTriangle), and before those of its
+// texture coordinates, lies one texel: the texel where the weights of its rules begin, its number of points, its
+// corner. All weights lie before the patches, four to a texel, as shared/surface.h says.
 #ifndef RELIEF_SHARED_RECORDS_H
 #define RELIEF_SHARED_RECORDS_H
 

@@ -38,6 +38,15 @@ RELIEF_CONSTANT uint kPatchRegular = 6u;
 RELIEF_CONSTANT uint kPatchGregory = 9u;
 RELIEF_CONSTANT uint kPatchGregoryTriangle = 10u;
 
+// And those that OpenSubdiv has not: the limit surface in a face with one extraordinary vertex. Their number of control
+// points depends on the vertex. Each pattern of rules around a vertex has a table of weights (Surface::capTables,
+// surface/caps.h): per level 1 .. kCapLevels, piece 0 .. 2 and point, 16 weights of a quad's piece or 12 of a
+// triangle's; then per point the weights of p_u and p_v at the vertex, 2 numbers and 2 that are 0.
+RELIEF_CONSTANT uint kPatchExactQuad = 11u;
+RELIEF_CONSTANT uint kPatchExactTriangle = 12u;
+RELIEF_CONSTANT uint kCapLevels = 18u; // 2^-18 of the cap's size: nearer to the vertex the last level goes on
+RELIEF_CONSTANT uint kCapPieces = 3u;
+
 // What an edge or corner is besides.
 RELIEF_CONSTANT uint kOnBoundary = 1u; // an edge of one drawn face alone, or an end of such an edge
 RELIEF_CONSTANT uint kOnSeam = 2u;     // an edge whose faces have texture coordinates of their own
@@ -47,14 +56,15 @@ RELIEF_CONSTANT uint kOnSeam = 2u;     // an edge whose faces have texture coord
 RELIEF_CONSTANT uint kGradientTexels = 2u;
 RELIEF_CONSTANT uint kRestGradientTexels = 5u;
 
-// Control points of a patch.
+// Control points of a patch; 0 where the type does not say.
 RELIEF_SHARED_FUNCTION uint patchSize(uint type) {
     return type == kPatchRegular           ? 16u
            : type == kPatchGregory         ? 20u
            : type == kPatchQuads           ? 4u
            : type == kPatchLoop            ? 12u
            : type == kPatchGregoryTriangle ? 18u
-                                           : 3u;
+           : type == kPatchTriangles       ? 3u
+                                           : 0u;
 }
 
 // A corner of a face is straight where its two sides continue each other: the face lies alone between two edges that
@@ -76,6 +86,9 @@ struct Patch {
     uint texParam1;       // the face-varying patch's field1 (its boundary mask differs)
     uint texType;         // kPatch...
     uint straightCorners; // bit c: corner c is straight or narrow, or its tangents vanish
+    uint pointCount;      // control points; those of straight corners follow
+    uint texPointCount;
+    uint cap; // of exact patches: Surface::capTables * 4 + the corner that is the extraordinary vertex
 };
 
 struct Face {
@@ -110,7 +123,7 @@ struct Corner {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Patch) == 32 && sizeof(Face) == 24 && sizeof(Incidence) == 16);
+static_assert(sizeof(Patch) == 44 && sizeof(Face) == 24 && sizeof(Incidence) == 16);
 static_assert(sizeof(Edge) == 40 && sizeof(Corner) == 28);
 } // namespace relief
 #endif

@@ -16,12 +16,15 @@ Run addAnimate(CLI::App& app);
 Run addExport(CLI::App& app);
 Run addSample(CLI::App& app);
 Run addCheck(CLI::App& app);
+Run addDoctor(CLI::App& app);
 Run addBench(CLI::App& app);
 Run addNormalMap(CLI::App& app);
 Run addHeightMap(CLI::App& app);
+Run addBake(CLI::App& app);
 Run addEnvironment(CLI::App& app);
 Run addMatcap(CLI::App& app);
 Run addShadingTable(CLI::App& app);
+Run addView(CLI::App& app);
 Run addInfo(CLI::App& app);
 
 } // namespace relief::app

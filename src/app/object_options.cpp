@@ -85,7 +85,7 @@ void addObject(CLI::App& app, ObjectDesc& object) {
     addMotion(app, object.motion);
 }
 
-void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
+void addSurface(CLI::App& app, ObjectDesc& object) {
     listIn("surface", "SCHEME",
            addEnum(app, "--scheme", object.subdivision, kSubdivisions,
                    "how the cage is subdivided (default: none where all faces are triangles, else catmark)"));
@@ -96,6 +96,10 @@ void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
                                       object.isolation))
                ->check(CLI::Range(0, 10)));
     addWeld(app, object.weld);
+}
+
+void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {
+    addSurface(app, object);
     addHeights(app, object.height);
 }
 

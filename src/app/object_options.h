@@ -9,6 +9,8 @@ namespace relief::app {
 
 /// Adds the cage as a positional, and all options of its surface, height map and motion.
 void addObject(CLI::App& app, ObjectDesc& object);
+/// Adds the options of a surface without heights.
+void addSurface(CLI::App& app, ObjectDesc& object);
 /// Adds the options of a surface and its height map alone.
 void addSurfaceOptions(CLI::App& app, ObjectDesc& object);
 /// Adds --height-function and --height-bound, for verbs that have addSurfaceOptions.

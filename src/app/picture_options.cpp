@@ -69,7 +69,8 @@ void addFilter(CLI::App& app, PictureArgs& picture) {
 void addBackground(CLI::App& app, Finish& finish) {
     const char* group = "shading";
     const auto setColor = [&finish](const std::vector<double>& rgb) {
-        finish = {.background = Background::color, .color = vec3(rgb[0], rgb[1], rgb[2])};
+        finish.background = Background::color;
+        finish.color = vec3(rgb[0], rgb[1], rgb[2]);
     };
     CLI::Option* color = app.add_option_function<std::vector<double>>(
         "--background", setColor, "sRGB color 0..1 of the background of a .png or clip (default: a grey studio)");
@@ -79,6 +80,10 @@ void addBackground(CLI::App& app, Finish& finish) {
     app.add_flag_function("--transparent", setTransparent, "transparent background of a .png")
         ->excludes(color)
         ->group(group);
+    listIn(group, "STOPS",
+           app.add_option("--exposure", finish.exposure,
+                          "what a .png or clip shows: light times two to the power of STOPS (default: 0)")
+               ->check(numberIn(-30, 30)));
 }
 
 } // namespace

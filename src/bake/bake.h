@@ -1,8 +1,13 @@
-// Painting maps: the points of the limit surface under a map's texels.
+// Maps of surfaces: painted by the points of the limit surface under their texels, or baked from sculpts with a
+// certificate.
 #pragma once
 
 #include <array>
 
+#include "bake/certificate.h"
+#include "bake/heights.h"
+#include "bake/sculpt.h"
+#include "bake/texels.h"
 #include "displacement/displacement.h"
 
 namespace relief {

@@ -14,8 +14,7 @@
 
 namespace relief {
 
-// --- the library
-// ------------------------------------------------------------------------------------------------------
+// --- the library ---------------------------------------------------------------------------------------------------
 
 /// Loads the shared library of pictures in a thread of its own, so that the first picture need not wait for it. Nothing
 /// is reported: where it cannot be loaded, whoever needs a picture says so.

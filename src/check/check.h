@@ -195,6 +195,13 @@ CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const S
 
 // --- seams --------------------------------------------------------------------------------------------------------
 
+/// How far the faces of one edge disagree.
+struct SeamEdge {
+    std::uint32_t edge = 0; ///< of the Surface
+    double max = 0;         ///< cage units
+    SurfaceLocation worst;  ///< in the owner's face
+};
+
 /// How far the faces of an edge disagree about the height there. The height of the edge's owner is drawn; a
 /// disagreement is a fault of the map.
 struct SeamReport {
@@ -202,6 +209,7 @@ struct SeamReport {
     double length = 0;               ///< of those edges on the limit surface, cage units
     double max = 0, mean = 0;        ///< cage units; the mean is over the length
     SurfaceLocation worst;           ///< in the owner's face
+    std::vector<SeamEdge> edges;     ///< those that disagree, in the order of the Surface
 };
 
 /// Measures all seams. Without texture coordinates every face takes the whole map, and every edge between faces can be

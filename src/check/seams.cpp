@@ -33,7 +33,7 @@ public:
     SeamReport measure() {
         const EdgeIncidences incidences = edgeIncidences(surface_);
         for (std::size_t edge = 0; edge < surface_.edges.size(); ++edge) {
-            if (isSeam(incidences.of(edge))) gather(incidences.of(edge));
+            if (isSeam(incidences.of(edge))) gather(std::uint32_t(edge), incidences.of(edge));
             if (points_.size() > kPointsAtOnce) addGathered();
         }
         addGathered();
@@ -79,8 +79,8 @@ private:
     }
 
     /// Adds the points of an edge: all faces at each step.
-    void gather(std::span<const Incidence> incidences) {
-        gathered_.push_back({incidences, stepsAlong(incidences)});
+    void gather(std::uint32_t edge, std::span<const Incidence> incidences) {
+        gathered_.push_back({edge, incidences, stepsAlong(incidences)});
         for (int i = 0; i <= gathered_.back().steps; ++i)
             for (const Incidence& incidence : incidences)
                 points_.emplace_back(int(incidence.face), pointOf(incidence, double(i) / gathered_.back().steps));
@@ -99,13 +99,15 @@ private:
     }
 
     struct GatheredEdge {
+        std::uint32_t number = 0;
         std::span<const Incidence> incidences;
         int steps = 1;
     };
 
     /// The trapezoidal rule along the edge; report_.mean sums disagreement times length until measure() ends.
     void addEdge(const GatheredEdge& edge, std::span<const double> heights) {
-        const auto& [incidences, steps] = edge;
+        const auto& [number, incidences, steps] = edge;
+        SeamEdge seam{.edge = number};
         double sum = 0;
         for (int i = 0; i <= steps; ++i) {
             // Largest minus smallest height that the faces see.
@@ -113,9 +115,11 @@ private:
                 std::ranges::minmax_element(heights.subspan(std::size_t(i) * incidences.size(), incidences.size()));
             const double t = double(i) / steps, apart = *highest - *lowest;
             sum += i == 0 || i == steps ? 0.5 * apart : apart;
-            if (apart > report_.max)
-                report_.max = apart, report_.worst = {incidences.front().face, vec2(pointOf(incidences.front(), t))};
+            if (apart > seam.max)
+                seam.max = apart, seam.worst = {incidences.front().face, vec2(pointOf(incidences.front(), t))};
         }
+        if (seam.max > 0) report_.edges.push_back(seam);
+        if (seam.max > report_.max) report_.max = seam.max, report_.worst = seam.worst;
         const double length = lengthOf(incidences.front());
         ++report_.seamEdgeCount;
         report_.length += length;

@@ -1,4 +1,4 @@
-// Internal: texels of a map that are no heights.
+// For other modules: texels of a map that are no heights.
 #pragma once
 
 #include <vector>

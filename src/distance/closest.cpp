@@ -29,6 +29,47 @@ bool visitTriangle(RTCPointQueryFunctionArguments* arguments) {
     return true;
 }
 
+/// A line, and the nearest hit so far. Embree calls back with each triangle that it meets.
+struct LineQuery : RTCIntersectContext {
+    const ClosestPoints* points = nullptr;
+    dvec3 p{0}, direction{0};
+    LineReach reach;
+    Facing facing = Facing::front;
+    LineHit best{.height = kNowhere};
+    double nearestBack[2] = {kNowhere,
+                             kNowhere}; ///< to triangles that may not be met, along the direction and against it
+    bool hasHit = false;
+
+    static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+};
+
+/// Decides about a triangle in double precision: Embree's own distance is as coarse as its floats.
+void takeHit(const RTCFilterFunctionNArguments* arguments) {
+    if (arguments->valid[0] == 0) return;
+    arguments->valid[0] = 0; // rejected, unless it is the nearest so far
+    LineQuery& query = static_cast<LineQuery&>(*arguments->context);
+    const unsigned int triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
+    const std::uint32_t* corner = &query.points->indices()[3 * std::size_t(triangle)];
+    const auto at = [&](std::uint32_t i) { return dvec3(query.points->positions()[corner[i]]); };
+    const dvec3 a = at(0), normal = glm::cross(at(1) - a, at(2) - a);
+    const double slope = glm::dot(normal, query.direction);
+    if (slope == 0) return;
+    const double height = glm::dot(normal, a - query.p) / slope, distance = std::abs(height);
+    if (!(height <= query.reach.front && -height <= query.reach.back)) return;
+    if (query.facing != Facing::any && (slope > 0) != (query.facing == Facing::front)) {
+        double& nearest = query.nearestBack[height >= 0 ? 0 : 1];
+        nearest = std::min(nearest, distance);
+        return;
+    }
+    // At one distance the triangle with the lowest number stays, so that the result does not depend on the tree.
+    const bool isNearer = distance < std::abs(query.best.height) ||
+                          (distance == std::abs(query.best.height) && triangle < query.best.triangle);
+    if (!isNearer) return;
+    query.best.height = height, query.best.triangle = triangle;
+    query.hasHit = true;
+    arguments->valid[0] = -1;
+}
+
 void checkTriangles(const TriangleView& triangles) {
     for (std::size_t i = 0; i < triangles.positions.size(); ++i) {
         const vec3& p = triangles.positions[i];
@@ -65,7 +106,7 @@ dvec3 nearestInTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dv
     return sum > 0 ? a + vb / sum * ab + vc / sum * ac : a;
 }
 
-ClosestPoints::ClosestPoints(const TriangleView& triangles) {
+ClosestPoints::ClosestPoints(const TriangleView& triangles, TreeUse use) {
     // Embree reads 16 bytes per vertex: one more vertex lies behind the last.
     checkTriangles(triangles);
     positions_.reserve(triangles.positions.size() + 1);
@@ -76,7 +117,12 @@ ClosestPoints::ClosestPoints(const TriangleView& triangles) {
         fail(Failure::device, "Embree does not start (error {}); is there memory for it?",
              int(rtcGetDeviceError(nullptr)));
     scene_.reset(rtcNewScene(device_.get()));
-    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW); // as many trees are built as measured
+    // As many trees are built as measured; lines are many more than trees.
+    const RTCBuildQuality quality = use == TreeUse::lines ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_LOW;
+    rtcSetSceneBuildQuality(scene_.get(), quality);
+    if (use == TreeUse::lines)
+        rtcSetSceneFlags(scene_.get(), RTCSceneFlags(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION |
+                                                     RTC_SCENE_FLAG_COMPACT));
 
     // The geometry shares our arrays and answers point queries by visitTriangle.
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -84,17 +130,48 @@ ClosestPoints::ClosestPoints(const TriangleView& triangles) {
                                sizeof(vec3), positions_.size() - 1);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, indices_.data(), 0,
                                3 * sizeof(std::uint32_t), indices_.size() / 3);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_LOW);
+    rtcSetGeometryBuildQuality(geometry, quality);
     rtcSetGeometryPointQueryFunction(geometry, visitTriangle);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_.get(), geometry);
     rtcReleaseGeometry(geometry);
+
+    double largest = 0;
+    for (const vec3& p : positions_) largest = std::max(largest, glm::length(dvec3(p)));
+    constexpr double kFloatsMayBeOff = 1e-6; // of coordinates: some of their last bits
+    overlap_ = kFloatsMayBeOff * largest;
 
     // Errors of building show only here.
     rtcCommitScene(scene_.get());
     if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
         fail(error == RTC_ERROR_OUT_OF_MEMORY ? Failure::device : Failure::internal,
              "Embree builds no tree of {} triangles: error {}", indices_.size() / 3, int(error));
+}
+
+std::optional<LineHit> ClosestPoints::nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
+                                                    Facing facing) const {
+    LineQuery query;
+    query.points = this, query.p = p, query.direction = direction, query.reach = reach, query.facing = facing;
+    rtcInitIntersectContext(&query);
+    query.filter = takeHit;
+    // Forwards, then backwards no farther than what is there already. Both halves begin a little on the other side, so
+    // that none misses a surface which floats put there.
+    for (const bool isForwards : {true, false}) {
+        const double limit = isForwards ? reach.front : std::min(reach.back, std::abs(query.best.height));
+        if (limit < 0) continue;
+        const dvec3 along = isForwards ? direction : -direction, origin = p - overlap_ * along;
+        RTCRayHit ray{};
+        ray.ray.org_x = float(origin.x), ray.ray.org_y = float(origin.y), ray.ray.org_z = float(origin.z);
+        ray.ray.dir_x = float(along.x), ray.ray.dir_y = float(along.y), ray.ray.dir_z = float(along.z);
+        ray.ray.tfar = float(limit + 2 * overlap_);
+        ray.ray.mask = ~0u;
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        rtcIntersect1(scene_.get(), &query, &ray);
+    }
+    if (!query.hasHit) return {};
+    const double passed = query.best.height >= 0 ? query.nearestBack[0] : query.nearestBack[1];
+    query.best.isBehindBack = passed < std::abs(query.best.height);
+    return query.best;
 }
 
 double ClosestPoints::distance(const dvec3& p, double limit) const {

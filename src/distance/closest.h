@@ -1,4 +1,4 @@
-// Internal: the nearest point of a set of triangles, by Embree's tree.
+// Internal: the nearest point of a set of triangles, and where lines meet them, by Embree's tree.
 #pragma once
 
 #include <embree3/rtcore.h>
@@ -13,17 +13,21 @@ dvec3 nearestInTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dv
 /// Keeps the triangles it was made of. Queries may run on several threads.
 class ClosestPoints {
 public:
-    explicit ClosestPoints(const TriangleView& triangles);
+    ClosestPoints(const TriangleView& triangles, TreeUse use);
     ClosestPoints(const ClosestPoints&) = delete;
     ClosestPoints& operator=(const ClosestPoints&) = delete;
 
     /// Computes the distance from `p` to the nearest point. `limit`: a distance within which there is one; the closer
     /// the quicker.
     [[nodiscard]] double distance(const dvec3& p, double limit) const;
+    /// As MeasuredSurface::nearestOnLine.
+    [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
+                                                       Facing facing) const;
     [[nodiscard]] const std::vector<vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }
 
 private:
+    double overlap_ = 0;          ///< by which both halves of a line begin before its point: what floats may be off
     std::vector<vec3> positions_; ///< one more than there are: Embree reads 16 bytes per vertex
     std::vector<std::uint32_t> indices_;
     std::unique_ptr<RTCDeviceTy, void (*)(RTCDevice)> device_{rtcNewDevice(nullptr), rtcReleaseDevice};

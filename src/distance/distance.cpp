@@ -2,6 +2,7 @@
 #include <cmath>
 #include <future>
 #include <limits>
+#include <numeric>
 #include <thread>
 
 #include "distance/closest.h"
@@ -143,6 +144,16 @@ private:
     Samples samples_;
 };
 
+/// The smallest distance within which samples of that area are.
+double distanceOfShare(const std::vector<double>& distances, const std::vector<double>& weights, double area) {
+    std::vector<std::size_t> order(distances.size());
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::ranges::sort(order, {}, [&](std::size_t i) { return distances[i]; });
+    for (const std::size_t i : order)
+        if (area -= weights[i]; area <= 0) return distances[i];
+    return distances[order.back()];
+}
+
 /// Calls `work(first, end)` for stretches of 0..count, one per core; in turn where no more threads can be started.
 void onAllCores(std::size_t count, const std::function<void(std::size_t first, std::size_t end)>& work) {
     const std::size_t partCount = std::max(1u, std::thread::hardware_concurrency());
@@ -159,20 +170,24 @@ struct MeasuredSurface::Parts {
     Samples samples;
     double area = 0;
 
-    Parts(const TriangleView& triangles, std::size_t sampleCount)
-        : points(triangles), samples(Sampler(points, sampleCount).sample()) {
+    Parts(const TriangleView& triangles, std::size_t sampleCount, TreeUse use)
+        : points(triangles, use), samples(Sampler(points, sampleCount).sample()) {
         for (const double weight : samples.weights) area += weight;
     }
 };
 
-MeasuredSurface::MeasuredSurface(const TriangleView& triangles, std::size_t sampleCount)
-    : parts_(std::make_unique<Parts>(triangles, sampleCount)) {}
+MeasuredSurface::MeasuredSurface(const TriangleView& triangles, std::size_t sampleCount, TreeUse use)
+    : parts_(std::make_unique<Parts>(triangles, sampleCount, use)) {}
 MeasuredSurface::~MeasuredSurface() = default;
 MeasuredSurface::MeasuredSurface(MeasuredSurface&&) noexcept = default;
 MeasuredSurface& MeasuredSurface::operator=(MeasuredSurface&&) noexcept = default;
 
 double MeasuredSurface::distance(const dvec3& p) const {
     return parts_->points.distance(p, std::numeric_limits<double>::infinity());
+}
+std::optional<LineHit> MeasuredSurface::nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
+                                                      Facing facing) const {
+    return parts_->points.nearestOnLine(p, direction, reach, facing);
 }
 std::size_t MeasuredSurface::sampleCount() const { return parts_->samples.points.size(); }
 double MeasuredSurface::coverage() const { return parts_->samples.coverage; }
@@ -197,6 +212,7 @@ SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface
         result.max = std::max(result.max, distances[i]);
     }
     const double area = areas[0] + areas[1];
+    result.share95 = distanceOfShare(distances, samples.weights, 0.95 * area);
     result.mean = sum / area;
     result.rms = std::sqrt((squares[0] + squares[1]) / area);
     if (areas[0] > 0 && areas[1] > 0)

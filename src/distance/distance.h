@@ -1,7 +1,8 @@
-// How far two surfaces are apart, and closest points (Embree).
+// How far two surfaces are apart, closest points, and where lines meet a surface (Embree).
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "mesh/mesh.h"
@@ -14,7 +15,29 @@ struct TriangleView {
     std::span<const std::uint32_t> indices; ///< three per triangle
 };
 
-/// A surface prepared for measuring: a tree for closest points, and samples that cover it.
+/// What the tree of a surface is built for: few points, or many lines.
+enum class TreeUse { distances, lines };
+
+/// Which sides of triangles a line may meet.
+enum class Facing {
+    front, ///< triangles whose counterclockwise side looks along the line's direction
+    back,  ///< the others
+    any,
+};
+
+/// How far a line reaches along its direction and against it.
+struct LineReach {
+    double front = 0, back = 0;
+};
+
+/// Where a line meets a surface.
+struct LineHit {
+    double height = 0; ///< along the direction; below 0 against it
+    std::uint32_t triangle = 0;
+    bool isBehindBack = false; ///< the line passes a triangle that may not be met before it comes there
+};
+
+/// A surface prepared for measuring: a tree for closest points and lines, and samples that cover it.
 ///
 /// Samples are the same in every run. A surface of fewer triangles than `sampleCount` has each triangle cut into n * n
 /// equal parts, with n chosen so that all parts are about as long. A surface of more triangles is cut into
@@ -23,7 +46,8 @@ struct TriangleView {
 class MeasuredSurface {
 public:
     /// Throws Failure::input for indices out of range, numbers that are not finite and surfaces without area.
-    explicit MeasuredSurface(const TriangleView& triangles, std::size_t sampleCount = 200'000);
+    explicit MeasuredSurface(const TriangleView& triangles, std::size_t sampleCount = 200'000,
+                             TreeUse use = TreeUse::distances);
     ~MeasuredSurface();
     MeasuredSurface(MeasuredSurface&&) noexcept;
     MeasuredSurface& operator=(MeasuredSurface&&) noexcept;
@@ -31,6 +55,10 @@ public:
     /// Distance from `p` to the nearest point of the surface, in units of the positions. It is off by up to 2^-24 of
     /// the largest coordinate, because closest points are searched with floats.
     [[nodiscard]] double distance(const dvec3& p) const;
+    /// The hit nearest to `p` on the line through it along a unit `direction`; empty where there is none within reach.
+    /// The triangle is found with floats, its height is computed in double precision. Several threads may ask.
+    [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
+                                                       Facing facing = Facing::front) const;
     [[nodiscard]] std::size_t sampleCount() const;
     /// Largest distance from a point of the surface to the sample that represents it.
     [[nodiscard]] double coverage() const;
@@ -44,6 +72,7 @@ private:
 /// Distances from samples of one surface to the nearest points of another.
 struct SampledDistance {
     double rms = 0, max = 0, mean = 0; ///< weighted by area; the true maximum is between `max` and `max + coverage`
+    double share95 = 0;                ///< 95 % of the area are not farther away
     double rmsError = 0;               ///< estimate from the difference between the two halves of the samples
     double coverage = 0;               ///< MeasuredSurface::coverage of the sampled surface
     std::size_t sampleCount = 0;

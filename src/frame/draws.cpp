@@ -8,7 +8,7 @@ namespace relief {
 void Renderer::Parts::makeTriangles(const Frame& frame, Drawn& drawn, FrameStats& stats) {
     const SurfaceModel& model = *drawn.surface;
     double milliseconds = 0;
-    drawn.rates = rater.rates(model, frame.options, drawn.view, &milliseconds);
+    drawn.rates = rater.rates(model, frame.options, drawn.rateView, &milliseconds);
     stats.rateMs += milliseconds;
     drawn.rateTables = uploadRates(device, model, drawn.rates);
     describeRates(model, drawn.rates, drawn.rateTables, drawn.inputs, drawn.bindings);

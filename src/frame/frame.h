@@ -107,6 +107,7 @@ struct RenderOptions : TriangleOptions {
     float anisotropy = 8; ///< anisotropic: most lookups per pixel, at most DeviceTraits::maxAnisotropy
     std::vector<Layer> layers;
     double unit = 1; ///< cage units per unit of the model: layers hold depths and heights in cage units
+    std::optional<Camera> rateCamera;   ///< what rates are measured from, for looking at them from elsewhere
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
     bool countsPipeline = false;
     std::optional<std::uint32_t> meshTrianglesInFlight; ///< see DeviceTraits; default what suits the device
@@ -149,6 +150,9 @@ public:
     Renderer(const Renderer&) = delete;
     Renderer& operator=(const Renderer&) = delete;
 
+    /// Makes pictures of another size from now on; shaders stay compiled. Throws as the constructor does.
+    void resize(const RendererDesc& desc);
+
     /// Throws Failure::usage for a rate or path that the device cannot do, and for more than kMostInstances.
     Picture render(std::span<const Instance> instances, const RenderOptions& options);
     Picture render(const Instance& instance, const RenderOptions& options) {
@@ -182,7 +186,8 @@ EnvironmentPicture captureSurroundings(Device& device, std::span<const Instance>
 enum class Background { studio, transparent, color };
 struct Finish {
     Background background = Background::studio;
-    vec3 color{1}; ///< sRGB 0..1
+    vec3 color{1};       ///< sRGB 0..1
+    double exposure = 0; ///< light is multiplied by two to this power before the tone curve
 };
 
 /// What a .png shows: tone-mapped, sRGB 0..1, 3 channels, or 4 where the background is transparent.

@@ -84,6 +84,7 @@ Image displayed(const Picture& picture, const Finish& finish) {
     Image to{from.width, from.height, isOpaque ? 3 : 4, {}};
     to.texels.resize(std::size_t(to.width) * to.height * to.channels);
     const double aspect = double(from.width) / from.height;
+    const auto gain = float(std::exp2(finish.exposure)); // 1 keeps every bit
     for (int y = 0; y < to.height; ++y)
         for (int x = 0; x < to.width; ++x) {
             // The curve is for the object's own color: alpha is divided out.
@@ -93,7 +94,7 @@ Image displayed(const Picture& picture, const Finish& finish) {
             vec3 color(0);
             for (int c = 0; alpha > 0 && c < 3; ++c) {
                 const float value = in[c] / alpha;
-                color[c] = picture.isDisplayReferred ? std::clamp(value, 0.0f, 1.0f) : srgbOf(toneMapped(value));
+                color[c] = picture.isDisplayReferred ? std::clamp(value, 0.0f, 1.0f) : srgbOf(toneMapped(gain * value));
             }
             // Over the background in display values, as programs that show pictures compose them.
             if (isOpaque) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/clock.h"
 
@@ -17,15 +18,32 @@ SamplerDesc clampedSampler(VkFilter filter) {
 /// The scale of a matrix that rotates and scales uniformly.
 double scaleOf(const mat4& toWorld) { return std::cbrt(glm::determinant(glm::dmat3(mat3(toWorld)))); }
 
+void checkSize(const RendererDesc& desc) {
+    if (desc.width < 1 || desc.height < 1 || desc.width > 16384 || desc.height > 16384)
+        fail(Failure::usage, "a picture of {} x {} is not in 1..16384 each way", desc.width, desc.height);
+}
+
 } // namespace
 
 Renderer::Renderer(Device& device, const RendererDesc& desc) {
-    if (desc.width < 1 || desc.height < 1 || desc.width > 16384 || desc.height > 16384)
-        fail(Failure::usage, "a picture of {} x {} is not in 1..16384 each way", desc.width, desc.height);
+    checkSize(desc);
     parts_ = std::make_unique<Parts>(device, desc);
 }
 
 Renderer::~Renderer() = default;
+
+void Renderer::resize(const RendererDesc& desc) {
+    checkSize(desc);
+    Parts& parts = *parts_;
+    const RendererDesc before = std::exchange(parts.desc, desc);
+    if (before.shadowSide != desc.shadowSide) parts.shadow.reset(), parts.buffers.reset();
+    if (before.width == desc.width && before.height == desc.height) return;
+    parts.images.reset();
+    parts.buffers.reset();
+    parts.layerTargets.reset();
+    parts.picture = {}; // ends before its successor is made, which takes its memory
+    parts.picture = makePictureBuffer(parts.device, desc);
+}
 
 Renderer::Parts::Parts(Device& device, const RendererDesc& desc)
     : device(device), desc(desc), picture(makePictureBuffer(device, desc)), resources(device),
@@ -149,6 +167,12 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
     drawn.view = viewOf(frame.options.camera, desc.height);
     drawn.view.eye = view.eye;
     drawn.view.nearDistance = float(drawn.view.nearDistance / scale);
+    drawn.rateView = drawn.view;
+    if (frame.options.rateCamera) {
+        drawn.rateView = viewOf(*frame.options.rateCamera, desc.height);
+        drawn.rateView.eye = vec3(dvec3(fromWorld * glm::dvec4(frame.options.rateCamera->eye, 1)));
+        drawn.rateView.nearDistance = float(drawn.rateView.nearDistance / scale);
+    }
     return drawn;
 }
 

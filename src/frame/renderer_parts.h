@@ -48,6 +48,7 @@ struct Renderer::Parts {
         PassBindings bindings{};
         View view; ///< in the model's own space
         glm::dmat4 toWorld{1};
+        View rateView; ///< what rates are measured from: `view`, or that of RenderOptions::rateCamera
         EdgeRates rates;
         RateTables rateTables;
         TexelBuffer drawFaces;

@@ -49,7 +49,7 @@ std::vector<DeviceTraits> listDevices() {
 
 Device::Device(const DeviceDesc& desc) {
     try {
-        makeInstance(desc.validate || isAskedForByEnvironment());
+        makeInstance(desc.validate || isAskedForByEnvironment(), desc);
         pickPhysical(desc);
         makeDevice();
         makeCommands();
@@ -81,17 +81,19 @@ void Device::destroy() {
             PFN_vkDestroyDebugUtilsMessengerEXT(vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
         end(instance_, messenger_, nullptr);
     }
+    if (surface_ != VK_NULL_HANDLE) vkDestroySurfaceKHR(instance_, surface_, nullptr);
     if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
 }
 
-void Device::makeInstance(bool validate) {
+void Device::makeInstance(bool validate, const DeviceDesc& desc) {
     if (validate && !hasLayer(kValidationLayer))
         fail(Failure::device,
              "validation was asked for but {} is not installed (on Debian: apt-get install "
              "vulkan-validationlayers)",
              kValidationLayer);
     isValidating_ = validate;
-    instance_ = createInstance(validate, messages_.get());
+    instance_ = createInstance(validate, messages_.get(), desc.surfaceExtensions);
+    if (desc.makeSurface) surface_ = desc.makeSurface(instance_);
     if (!validate) return;
     auto make = PFN_vkCreateDebugUtilsMessengerEXT(vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
     const VkDebugUtilsMessengerCreateInfoEXT info = messengerInfo(messages_.get());
@@ -103,6 +105,12 @@ void Device::pickPhysical(const DeviceDesc& desc) {
     std::erase_if(devices, [&](VkPhysicalDevice d) {
         return !isUsable(d) || readTraits(d).name.find(desc.name) == std::string::npos;
     });
+    // A window is shown by those alone that present to its surface.
+    const bool isAny = !devices.empty();
+    if (surface_ != VK_NULL_HANDLE) std::erase_if(devices, [&](VkPhysicalDevice d) { return !findQueueFamily(d); });
+    if (isAny && devices.empty())
+        fail(Failure::device, "no Vulkan device presents to this display (it has no swapchain); relief render draws "
+                              "without a window");
     if (devices.empty())
         fail(Failure::device, "no Vulkan 1.3 device{}{} (relief info --devices lists what there is)",
              desc.name.empty() ? "" : " whose name contains ", desc.name);
@@ -110,16 +118,31 @@ void Device::pickPhysical(const DeviceDesc& desc) {
     traits_ = readTraits(physical_, desc.maxTexelBufferElements);
 }
 
+bool Device::presents(VkPhysicalDevice physical, std::uint32_t family) const {
+    VkBool32 presents = VK_FALSE;
+    const bool isKnown = vkGetPhysicalDeviceSurfaceSupportKHR(physical, family, surface_, &presents) == VK_SUCCESS &&
+                         presents == VK_TRUE;
+    return isKnown && hasExtension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+}
+
+/// The first family of queues for graphics and compute, and for the window where there is one.
+std::optional<std::uint32_t> Device::findQueueFamily(VkPhysicalDevice physical) const {
+    std::uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+    constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+    for (std::uint32_t i = 0; i < count; ++i)
+        if ((families[i].queueFlags & needed) == needed && (surface_ == VK_NULL_HANDLE || presents(physical, i)))
+            return i;
+    return {};
+}
+
 void Device::makeDevice() {
     // One queue for everything: passes follow each other anyway.
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-    constexpr VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    const auto family = std::ranges::find_if(families, [](const auto& f) { return (f.queueFlags & needed) == needed; });
-    if (family == families.end()) fail(Failure::device, "{} has no queue for graphics and compute", traits_.name);
-    queueFamily_ = std::uint32_t(family - families.begin());
+    const std::optional<std::uint32_t> family = findQueueFamily(physical_);
+    if (!family) fail(Failure::device, "{} has no queue for graphics and compute", traits_.name);
+    queueFamily_ = *family;
 
     // Features of Vulkan 1.0 are used where the device has them; DeviceTraits says which.
     VkPhysicalDeviceFeatures has;
@@ -137,8 +160,12 @@ void Device::makeDevice() {
     VkPhysicalDeviceTransformFeedbackFeaturesEXT feedback{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TRANSFORM_FEEDBACK_FEATURES_EXT};
     feedback.transformFeedback = VK_TRUE;
-    const char* const extension = VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME;
-    if (traits_.hasTransformFeedback) use.v13.pNext = &feedback;
+    std::vector<const char*> extensions;
+    if (traits_.hasTransformFeedback) {
+        use.v13.pNext = &feedback;
+        extensions.push_back(VK_EXT_TRANSFORM_FEEDBACK_EXTENSION_NAME);
+    }
+    if (surface_ != VK_NULL_HANDLE) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
     // Required: devices without these are never picked (isUsable).
     use.v12.bufferDeviceAddress = use.v12.scalarBlockLayout = VK_TRUE;
@@ -155,8 +182,8 @@ void Device::makeDevice() {
     info.pNext = &use.base;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = traits_.hasTransformFeedback ? 1 : 0;
-    info.ppEnabledExtensionNames = &extension;
+    info.enabledExtensionCount = std::uint32_t(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     checkVulkan(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
     vkGetDeviceQueue(device_, queueFamily_, 0, &queue_);
     if (hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME)) // then the instance was made with it
@@ -202,12 +229,12 @@ private:
     VkCommandBuffer handle_ = VK_NULL_HANDLE;
 };
 
-void Device::submitAndWait(const std::function<void(VkCommandBuffer)>& record) {
+void Device::submitAndWait(const std::function<void(VkCommandBuffer)>& record, const SubmitSemaphores& semaphores) {
     const Commands commands(*this, record);
-    if (uploads_->isEmpty()) return submit({{commands.handle()}});
+    if (uploads_->isEmpty()) return submit({{commands.handle()}}, semaphores);
     // Recorded last, so that uploads made while `record` ran are among them; submitted first.
     const Commands uploads(*this, [&](VkCommandBuffer c) { uploads_->record(c); });
-    submit({{uploads.handle(), commands.handle()}});
+    submit({{uploads.handle(), commands.handle()}}, semaphores);
 }
 
 void Device::submitUploads() {
@@ -217,13 +244,24 @@ void Device::submitUploads() {
 }
 
 /// All pending uploads are among `commands`.
-void Device::submit(std::span<const VkCommandBuffer> commands) {
+void Device::submit(std::span<const VkCommandBuffer> commands, const SubmitSemaphores& semaphores) {
     std::vector<VkCommandBufferSubmitInfo> infos;
     for (const VkCommandBuffer each : commands)
         infos.push_back({.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = each});
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = std::uint32_t(infos.size());
     submit.pCommandBufferInfos = infos.data();
+    const auto infoOf = [](VkSemaphore semaphore) {
+        VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+        info.semaphore = semaphore;
+        info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        return info;
+    };
+    const VkSemaphoreSubmitInfo waited = infoOf(semaphores.waited), signaled = infoOf(semaphores.signaled);
+    submit.waitSemaphoreInfoCount = semaphores.waited != VK_NULL_HANDLE ? 1 : 0;
+    submit.pWaitSemaphoreInfos = &waited;
+    submit.signalSemaphoreInfoCount = semaphores.signaled != VK_NULL_HANDLE ? 1 : 0;
+    submit.pSignalSemaphoreInfos = &signaled;
     checkVulkan(vkQueueSubmit2(queue_, 1, &submit, fence_), "vkQueueSubmit2");
     ++submitCount_;
     checkVulkan(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "vkWaitForFences");

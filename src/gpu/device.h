@@ -1,7 +1,11 @@
 // The device: what it can do, how commands run on it, how much of its memory is in use.
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include <vulkan/vulkan.h>
 
@@ -23,6 +27,10 @@ struct DeviceDesc {
     /// Lowers DeviceTraits::maxTexelBufferElements to this, for tests of devices that read less. Unset: the environment
     /// variable RELIEF_MAX_TEXEL_BUFFER_ELEMENTS if it is set, else what the device states.
     std::optional<std::uint32_t> maxTexelBufferElements;
+    /// For a window: the instance's extensions that its surface needs, and what makes the surface, which the device
+    /// owns. Devices that cannot present to it are left out. Null: no window.
+    std::vector<const char*> surfaceExtensions;
+    std::function<VkSurfaceKHR(VkInstance)> makeSurface;
 };
 
 /// How shaders read tables of words and floats.
@@ -82,6 +90,11 @@ struct DeviceTraits {
 /// The traits of all devices, without making one the current one.
 std::vector<DeviceTraits> listDevices();
 
+/// What commands wait for before they start, and what they signal at their end; either may be null.
+struct SubmitSemaphores {
+    VkSemaphore waited = VK_NULL_HANDLE, signaled = VK_NULL_HANDLE;
+};
+
 /// A logical device with one queue.
 class Device {
 public:
@@ -94,6 +107,10 @@ public:
     [[nodiscard]] const DeviceTraits& traits() const { return traits_; }
     [[nodiscard]] VkDevice handle() const { return device_; }
     [[nodiscard]] VkPhysicalDevice physical() const { return physical_; }
+    [[nodiscard]] VkInstance instance() const { return instance_; }
+    [[nodiscard]] VkQueue queue() const { return queue_; }
+    [[nodiscard]] std::uint32_t queueFamily() const { return queueFamily_; }
+    [[nodiscard]] VkSurfaceKHR surface() const { return surface_; } ///< null without a window
     [[nodiscard]] bool isValidating() const { return isValidating_; }
     /// Warnings and errors of the validation layer so far, one per line; each was printed to stderr as well.
     [[nodiscard]] const std::vector<std::string>& validationMessages() const { return *messages_; }
@@ -111,7 +128,7 @@ public:
     /// path waits three times, of the other paths twice: for rates, which the host plans triangles from; for diced
     /// vertices, whose time is taken by the host's clock on CPU devices; and for the picture. Each posed set of points
     /// adds one.
-    void submitAndWait(const std::function<void(VkCommandBuffer)>& record);
+    void submitAndWait(const std::function<void(VkCommandBuffer)>& record, const SubmitSemaphores& semaphores = {});
     /// Submits pending uploads and waits; does nothing where there are none.
     void submitUploads();
     /// Submissions so far; the host waited for each of them.
@@ -128,15 +145,18 @@ public:
     [[nodiscard]] DescriptorPools& descriptorPools() { return *descriptorPools_; }
 
 private:
-    void makeInstance(bool validate);
+    void makeInstance(bool validate, const DeviceDesc& desc);
     void pickPhysical(const DeviceDesc& desc);
     void makeDevice();
     void makeCommands();
     void destroy();
     class Commands;
-    void submit(std::span<const VkCommandBuffer> commands);
+    void submit(std::span<const VkCommandBuffer> commands, const SubmitSemaphores& semaphores = {});
+    [[nodiscard]] bool presents(VkPhysicalDevice physical, std::uint32_t family) const;
+    [[nodiscard]] std::optional<std::uint32_t> findQueueFamily(VkPhysicalDevice physical) const;
 
     VkInstance instance_ = VK_NULL_HANDLE;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice device_ = VK_NULL_HANDLE;

@@ -1,4 +1,4 @@
-// A Vulkan 1.3 device without a window: owners made from descriptions, one barrier, one way to run commands.
+// A Vulkan 1.3 device: owners made from descriptions, one barrier, one way to run commands.
 // Core features only: dynamic rendering, synchronization2, buffer addresses, scalar layout. It contains no geometry.
 //
 // Nothing here may be called from two threads at once. A Device must outlive everything that was made with it.
@@ -10,3 +10,4 @@
 #include "gpu/owned.h"
 #include "gpu/pipeline.h"
 #include "gpu/queries.h"
+#include "gpu/swapchain.h"

@@ -22,14 +22,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
     return VK_FALSE;
 }
 
-bool hasExtension(VkPhysicalDevice physical, std::string_view name) {
-    std::uint32_t count = 0;
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
-    std::vector<VkExtensionProperties> extensions(count);
-    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
-    return std::ranges::any_of(extensions, [&](const auto& e) { return name == e.extensionName; });
-}
-
 /// What DeviceTraits::maxTexelBufferElements is lowered to; the largest number where nobody asked.
 std::uint32_t texelBufferElementsAsked(std::optional<std::uint32_t> asked) {
     const char* variable = "RELIEF_MAX_TEXEL_BUFFER_ELEMENTS";
@@ -63,6 +55,14 @@ bool hasLayer(const char* name) {
     return std::ranges::any_of(layers, [&](const auto& l) { return std::string_view(l.layerName) == name; });
 }
 
+bool hasExtension(VkPhysicalDevice physical, std::string_view name) {
+    std::uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+    return std::ranges::any_of(extensions, [&](const auto& e) { return name == e.extensionName; });
+}
+
 bool hasInstanceExtension(const char* name) {
     std::uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
@@ -71,7 +71,8 @@ bool hasInstanceExtension(const char* name) {
     return std::ranges::any_of(extensions, [&](const auto& e) { return std::string_view(e.extensionName) == name; });
 }
 
-VkInstance createInstance(bool validate, std::vector<std::string>* messages) {
+VkInstance createInstance(bool validate, std::vector<std::string>* messages,
+                          std::span<const char* const> surfaceExtensions) {
     VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     app.pApplicationName = app.pEngineName = "relief";
     app.apiVersion = VK_API_VERSION_1_3;
@@ -85,7 +86,7 @@ VkInstance createInstance(bool validate, std::vector<std::string>* messages) {
     features.pEnabledValidationFeatures = &synchronization;
 
     // Debug utilities also give objects names for debuggers, so they are on wherever they exist.
-    std::vector<const char*> extensions;
+    std::vector<const char*> extensions(surfaceExtensions.begin(), surfaceExtensions.end());
     if (validate) extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     if (validate || hasInstanceExtension(VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
         extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

@@ -9,13 +9,16 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
 bool hasLayer(const char* name);
 bool hasInstanceExtension(const char* name);
+bool hasExtension(VkPhysicalDevice physical, std::string_view name);
 
 /// A messenger that appends warnings and errors to `messages` and prints them to stderr.
 VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>* messages);
 
 /// An instance with VK_EXT_debug_utils where there is one. `validate`: with the validation layer, which must be
 /// installed; `messages` then gets what it says while the instance is made.
-VkInstance createInstance(bool validate, std::vector<std::string>* messages);
+/// `surfaceExtensions`: those that a window's surface needs besides.
+VkInstance createInstance(bool validate, std::vector<std::string>* messages,
+                          std::span<const char* const> surfaceExtensions = {});
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance);
 /// `maxTexelBufferElements`: see DeviceDesc. Throws Failure::usage for a bad RELIEF_MAX_TEXEL_BUFFER_ELEMENTS.
 DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> maxTexelBufferElements = {});

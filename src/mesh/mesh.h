@@ -1,6 +1,8 @@
 // Dense triangle meshes: what displaced surfaces are compared with and exported as.
 #pragma once
 
+#include <optional>
+
 #include "base/base.h"
 
 namespace relief {
@@ -31,6 +33,24 @@ struct DenseMesh {
 
     [[nodiscard]] std::uint64_t byteCount() const;
 };
+
+/// Triangles alone: what a sculpt's file says.
+struct TriangleMesh {
+    std::vector<vec3> positions;
+    std::vector<std::uint32_t> indices; ///< three per triangle
+    Coordinates coordinates;            ///< of the positions
+};
+
+/// True for files that readTriangles reads, by their extension: .ply and .stl.
+bool isTriangleFile(const std::string& path);
+
+/// Reads the triangles of a .ply (text, or binary in both orders of bytes; polygons become fans) or an .stl (binary or
+/// text; equal positions become one vertex), in a single pass through a buffer of 1 MiB. Positions are stored in
+/// `coordinates`, or in coordinates chosen for them.
+/// Throws Failure::usage for another extension, Failure::file when reading fails, and Failure::input for a file that is
+/// cut off or claims more than it holds (before memory is taken), indices out of range, numbers that are not finite,
+/// and no triangles.
+TriangleMesh readTriangles(const std::string& path, const std::optional<Coordinates>& coordinates = {});
 
 /// Merges vertices at equal positions. The result has the unit sum of their normals and no texture coordinates, which
 /// may differ there. Triangles that lose a corner are removed: a closed surface stays closed.

@@ -132,7 +132,7 @@ std::vector<TexBox> faceTexBoxes(const Surface& surface) {
             if (!surface.hasTexCoords()) break;
             const Patch& patch = surface.patches[leaf.patchIndex];
             const auto indices =
-                std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patchSize(patch.texType));
+                std::span(surface.texPatchPoints).subspan(patch.texFirstPoint, patch.texPointCount);
             box.add(patchBox<vec2>(indices, surface.texPoints, patch.texParam1));
         }
         boxes.push_back({box.lower, box.upper});
@@ -161,7 +161,7 @@ std::vector<Bounds> faceBounds(const Surface& surface, std::span<const vec3> poi
         Box<vec3> box;
         for (const TreeLeaf& leaf : leavesOf(surface.tree, surface.faces[f].root)) {
             const Patch& patch = surface.patches[leaf.patchIndex];
-            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patchSize(patch.type)),
+            box.add(patchBox<vec3>(std::span(surface.patchPoints).subspan(patch.firstPoint, patch.pointCount),
                                    points, patch.param1));
         }
         if (box.isEmpty()) continue;

@@ -64,7 +64,9 @@ void appendIncidences(std::vector<std::uint32_t>& words, const Surface& surface)
 /// The records of patches and the indices of their control points; those of each patch begin at a whole texel.
 class PatchWriter {
 public:
-    explicit PatchWriter(const Surface& surface) : surface_(surface) {
+    /// `firstCapTexel`: where the weights of exact caps begin.
+    PatchWriter(const Surface& surface, std::uint32_t firstCapTexel)
+        : surface_(surface), firstCapTexel_(firstCapTexel) {
         for (const Patch& patch : surface.patches)
             isWide_ = isWide_ || isFar(pointsOf(patch)) || isFar(texPointsOf(patch));
     }
@@ -77,13 +79,22 @@ public:
         for (const Patch& patch : surface_.patches) {
             const PointIndices points = pointsOf(patch), texPoints = texPointsOf(patch);
             const std::uint32_t texels = texelsOf(points);
+            // An exact cap has a texel before its indices.
+            const std::uint32_t header = isExact(patch.type) ? 1 : 0, texHeader = isExact(patch.texType) ? 1 : 0;
+            const std::uint32_t texelsToTexture = texels + texHeader;
+            RELIEF_CHECK(texelsToTexture < 64);
+            texel += header;
             relief::append(words, texel, baseOf(points), baseOf(texPoints),
                            patch.type | patch.texType << 4 | (patch.param1 >> 7 & 31) << 8 |
-                               (patch.texParam1 >> 7 & 31) << 13 | texels << 18 | patch.straightCorners << 24);
-            texel += texels + texelsOf(texPoints);
+                               (patch.texParam1 >> 7 & 31) << 13 | texelsToTexture << 18 | patch.straightCorners << 24);
+            texel += texelsToTexture + texelsOf(texPoints);
         }
-        for (const Patch& patch : surface_.patches)
-            for (const PointIndices& indices : {pointsOf(patch), texPointsOf(patch)}) appendIndices(words, indices);
+        for (const Patch& patch : surface_.patches) {
+            if (isExact(patch.type)) appendCap(words, patch.cap);
+            appendIndices(words, pointsOf(patch));
+            if (isExact(patch.texType)) appendCap(words, patch.cap);
+            appendIndices(words, texPointsOf(patch));
+        }
     }
 
 private:
@@ -91,11 +102,16 @@ private:
 
     [[nodiscard]] PointIndices pointsOf(const Patch& patch) const {
         const int cornerPoints = 2 * std::popcount(patch.straightCorners);
-        return PointIndices(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type) + cornerPoints);
+        return PointIndices(surface_.patchPoints).subspan(patch.firstPoint, patch.pointCount + cornerPoints);
     }
     [[nodiscard]] PointIndices texPointsOf(const Patch& patch) const {
         if (!surface_.hasTexCoords()) return {};
-        return PointIndices(surface_.texPatchPoints).subspan(patch.texFirstPoint, patchSize(patch.texType));
+        return PointIndices(surface_.texPatchPoints).subspan(patch.texFirstPoint, patch.texPointCount);
+    }
+    static bool isExact(std::uint32_t type) { return type == kPatchExactQuad || type == kPatchExactTriangle; }
+    void appendCap(std::vector<std::uint32_t>& words, std::uint32_t cap) const {
+        const CapTable& table = surface_.capTables[cap / 4];
+        relief::append(words, firstCapTexel_ + table.firstWeight / 4, table.pointCount, cap % 4, 0);
     }
     static bool isFar(const PointIndices& indices) {
         if (indices.empty()) return false;
@@ -122,6 +138,7 @@ private:
     }
 
     const Surface& surface_;
+    std::uint32_t firstCapTexel_;
     bool isWide_ = false;
 };
 
@@ -142,7 +159,9 @@ SurfaceRecords recordsOf(const Surface& surface) {
     std::vector<std::uint32_t>& words = records.words;
     const auto texel = [&] { return std::uint32_t(words.size() / 4); };
     records.firstFace = appendRecords<kFaceTexels>(words, surface.faces);
-    const PatchWriter patches(surface);
+    const std::uint32_t firstCapTexel = texel();
+    for (const float weight : surface.capWeights) words.push_back(std::bit_cast<std::uint32_t>(weight));
+    const PatchWriter patches(surface, firstCapTexel);
     records.firstPatch = texel();
     records.hasWideIndices = patches.isWide();
     patches.append(words);

@@ -32,7 +32,7 @@ public:
         for (const TreeLeaf& leaf : leavesOf(surface_.tree, surface_.faces[face].root)) {
             const Patch& patch = surface_.patches[leaf.patchIndex];
             const float factor = hasBoundary(patch) ? kPhantomSpread : 1;
-            for (std::uint32_t i = 0; i < patchSize(patch.type); ++i)
+            for (std::uint32_t i = 0; i < patch.pointCount; ++i)
                 spread = std::max(spread, factor * addPoint(surface_.patchPoints[patch.firstPoint + i], face, points));
         }
         return spread;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scene/loading.h"
 #include "scene/scene.h"
 
 namespace relief {

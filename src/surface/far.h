@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <opensubdiv/far/patchTableFactory.h>
@@ -9,6 +10,7 @@
 #include <opensubdiv/far/ptexIndices.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 
+#include "surface/caps.h"
 #include "surface/surface.h"
 
 namespace relief {
@@ -26,10 +28,33 @@ struct Blend {
 using Point = Blend<dvec3>;
 using TexPoint = Blend<dvec2>;
 
+/// An end cap that is evaluated exactly: its rules and the points around it, as the patch table indexes points.
+struct EndCap {
+    std::uint32_t pattern = 0; ///< into EndCaps::patterns
+    std::uint32_t corner = 0;  ///< of the patch: where the extraordinary vertex is
+    std::uint32_t limit = 0;   ///< into EndCaps::limits: the vertex's limit point
+    std::vector<int> points;   ///< in the order of CapPattern::pointCount
+};
+
+/// The caps of a patch table. Limit points follow the table's points, in order.
+struct EndCaps {
+    /// A limit point as a sum of points of the table.
+    struct Limit {
+        std::vector<int> points;
+        Eigen::RowVectorXd weights;
+    };
+
+    std::vector<std::shared_ptr<const CapMatrices>> patterns;
+    std::vector<std::optional<EndCap>> surface,
+        texture; ///< per patch; none has texture coordinates but not the surface
+    std::vector<Limit> limits, texLimits;
+};
+
 /// The refined topology of a cage and the patches on it.
 struct FarTables {
     std::unique_ptr<Far::TopologyRefiner> refiner;
     std::unique_ptr<const Far::PatchTable> patches;
+    EndCaps caps;
     bool hasTexCoords = false;
     int isolation = 0; ///< levels used: at least 1 where there are n-gons
 };
@@ -43,7 +68,14 @@ inline std::size_t pointCount(const FarTables& tables) {
 std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme scheme);
 
 /// Refines adaptively and builds patches with double-precision local points. Throws as buildSurface does.
-FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options);
+/// `capLevels`: levels of the matrices of exact end caps.
+FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options, int capLevels = int(kCapLevels));
+
+/// Face-varying values, refined and local; 0 without texture coordinates.
+inline std::uint32_t texPointCount(const FarTables& tables) {
+    if (!tables.hasTexCoords) return 0;
+    return std::uint32_t(tables.refiner->GetNumFVarValuesTotal() + tables.patches->GetNumLocalPointsFaceVarying());
+}
 
 /// Cage, refined and local points of a pose, as the patch table indexes them.
 std::vector<Point> refineAll(const FarTables& tables, std::span<const vec3> cagePositions);
@@ -73,6 +105,20 @@ void blendPoints(const FarTables& tables, const From& from) {
 
 /// Levels below its ptex face: a corner quad of an n-gon starts at depth 1.
 inline int depthInFace(const Far::PatchParam& param) { return param.GetDepth() - (param.NonQuadRoot() ? 1 : 0); }
+
+/// Walks from a face's (u,v) to the child that holds it; (u,v) become the child's own coordinates. Children are
+/// numbered as in shared/surface.h.
+int enterQuadChild(dvec2& uv);
+int enterTriangleChild(dvec2& uv);
+/// (u,v) of the middle of a patch in its face.
+dvec2 patchCenter(const Far::PatchParam& param, int sideCount);
+
+/// Fills in tables.caps: the end caps around which the rules of subdivision stay as they are at all further levels, of
+/// vertices of at most kMostCapFaces faces. `levelCount`: of the matrices.
+void findEndCaps(FarTables& tables, int levelCount);
+
+/// More would make an evaluation too long.
+inline constexpr int kMostCapFaces = 64;
 
 // The steps of buildSurface, each fills its own part of the surface; the last one uses the tables up.
 void fillPatches(Surface& surface, const FarTables& tables);

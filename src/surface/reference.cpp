@@ -65,6 +65,78 @@ bool hasFiniteSharpnessPast(const Cage& cage, int isolation) {
            std::any_of(cage.vertexSharpness.begin(), cage.vertexSharpness.end(), isPast);
 }
 
+/// A point of an exact end cap and its derivatives by the face's (u,v).
+template <typename V>
+struct CapFrame {
+    V p{0}, pu{0}, pv{0}, puu{0}, puv{0}, pvv{0};
+};
+
+/// The cap's coordinates a and b as functions of the patch's: 0 at the extraordinary corner.
+struct CapCoordinates {
+    Jet a, b;
+};
+
+CapCoordinates capCoordinates(int sideCount, std::uint32_t corner, const dvec2& uv) {
+    const Jet u{uv.x, 1, 0}, v{uv.y, 0, 1};
+    if (sideCount == 3) {
+        const Jet w = Jet{1} - u - v;
+        return corner == 0 ? CapCoordinates{u, v} : corner == 1 ? CapCoordinates{v, w} : CapCoordinates{w, u};
+    }
+    const Jet u1 = Jet{1} - u, v1 = Jet{1} - v;
+    return corner == 0   ? CapCoordinates{u, v}
+           : corner == 1 ? CapCoordinates{v, u1}
+           : corner == 2 ? CapCoordinates{u1, v1}
+                         : CapCoordinates{v1, u};
+}
+
+/// `values`: of the points around the cap, less the limit point's.
+template <typename V>
+V sumOf(const Eigen::MatrixXd& weights, Eigen::Index row, const std::vector<V>& values) {
+    V sum(0);
+    for (std::size_t i = 0; i < values.size(); ++i) sum += weights(row, Eigen::Index(i)) * values[i];
+    return sum;
+}
+
+/// By the cap's coordinates, without the limit point.
+template <typename V>
+CapFrame<V> capFrameByOwn(const CapMatrices& matrices, double a, double b, const std::vector<V>& values) {
+    const int sideCount = matrices.pattern().sideCount;
+    const CapPlace place = placeInCap(sideCount, a, b, matrices.levelCount());
+    CapFrame<V> f;
+    if (place.level == 0) {
+        f.pu = sumOf(matrices.tangentWeights(), 0, values);
+        f.pv = sumOf(matrices.tangentWeights(), 1, values);
+        return f;
+    }
+    const std::vector<Jet> basis = pieceBasis(sideCount, place.u, place.v);
+    const Eigen::MatrixXd& weights = matrices.pieceWeights(place.level, place.piece);
+    const double bend = 1 / place.size;
+    for (std::size_t j = 0; j < basis.size(); ++j) {
+        const V q = sumOf(weights, Eigen::Index(j), values);
+        const Jet& w = basis[j];
+        f.p += place.size * w.f * q;
+        f.pu += place.slope * w.u * q, f.pv += place.slope * w.v * q;
+        f.puu += bend * w.uu * q, f.puv += bend * w.uv * q, f.pvv += bend * w.vv * q;
+    }
+    return f;
+}
+
+/// `slope`: of the patch's coordinates by the face's.
+template <typename V>
+CapFrame<V> capFrame(const CapMatrices& matrices, const CapCoordinates& at, double slope, const V& limit,
+                     const std::vector<V>& values) {
+    const CapFrame<V> f = capFrameByOwn(matrices, at.a.f, at.b.f, values);
+    const double au = slope * at.a.u, av = slope * at.a.v, bu = slope * at.b.u, bv = slope * at.b.v;
+    return {limit + f.p,
+            au * f.pu + bu * f.pv,
+            av * f.pu + bv * f.pv,
+            au * au * f.puu + 2 * au * bu * f.puv + bu * bu * f.pvv,
+            au * av * f.puu + (au * bv + av * bu) * f.puv + bu * bv * f.pvv,
+            av * av * f.puu + 2 * av * bv * f.puv + bv * bv * f.pvv};
+}
+
+constexpr int kReferenceLevels = 44; ///< of exact end caps: nearer to the vertex (u,v) has no digits left
+
 /// Sine under which tangents count as parallel: OpenSubdiv's own at straight corners are 1.5e-5 off.
 constexpr double kParallel = 1e-4;
 /// A cross product below this share of the square of the longer tangent is rounding. Long thin faces have small ones,
@@ -89,9 +161,9 @@ struct ReferenceSurface::Parts {
     using Handle = Far::PatchTable::PatchHandle;
 
     Parts(const Cage& cage, const SurfaceOptions& options)
-        : tables(makeFarTables(cage, options)), map(*tables.patches), sideCount(options.scheme == Scheme::loop ? 3 : 4),
-          points(refineAll(tables, cage.positions)), texPoints(refineAllTex(tables, cage.texCoords)),
-          isCutShort(hasFiniteSharpnessPast(cage, tables.isolation)) {}
+        : tables(makeFarTables(cage, options, kReferenceLevels)), map(*tables.patches),
+          sideCount(options.scheme == Scheme::loop ? 3 : 4), points(refineAll(tables, cage.positions)),
+          texPoints(refineAllTex(tables, cage.texCoords)), isCutShort(hasFiniteSharpnessPast(cage, tables.isolation)) {}
 
     [[nodiscard]] const Handle* find(int face, const dvec2& uv) const { return map.FindPatch(face, uv.x, uv.y); }
 
@@ -126,6 +198,31 @@ struct ReferenceSurface::Parts {
         PatchWeights weights = w.jets();
         correctDerivatives(weights, sideCount, param);
         return weights;
+    }
+
+    /// The exact cap that a patch is, of the surface or of the texture coordinates; null for other patches.
+    [[nodiscard]] static const EndCap* capOf(const std::vector<std::optional<EndCap>>& caps, const Handle& handle) {
+        const auto patch = std::size_t(handle.patchIndex);
+        return patch < caps.size() && caps[patch] ? &*caps[patch] : nullptr;
+    }
+
+    /// `all`: values as the patch table indexes them, limit points from `firstLimit` on.
+    template <typename Value>
+    [[nodiscard]] auto evaluateCap(const EndCap& cap, const Handle& handle, const dvec2& uv,
+                                   const std::vector<Value>& all, std::size_t firstLimit) const {
+        const Far::PatchParam param = tables.patches->GetPatchParam(handle);
+        double u = uv.x, v = uv.y, slope = 1 << depthInFace(param);
+        if (sideCount == 4) {
+            param.Normalize(u, v);
+        } else {
+            param.NormalizeTriangle(u, v);
+            if (param.IsTriangleRotated()) slope = -slope;
+        }
+        const auto limit = all[firstLimit + cap.limit].value;
+        std::vector<std::decay_t<decltype(limit)>> values;
+        for (const int point : cap.points) values.push_back(all[std::size_t(point)].value - limit);
+        return capFrame(*tables.caps.patterns[cap.pattern], capCoordinates(sideCount, cap.corner, {u, v}), slope, limit,
+                        values);
     }
 
     FarTables tables;
@@ -164,12 +261,17 @@ bool ReferenceSurface::isHole(int face) const { return !parts_->find(face, dvec2
 bool ReferenceSurface::isApproximate(int face, const dvec2& uv) const {
     const auto& patches = *parts_->tables.patches;
     const auto& handle = parts_->patchAt(face, uv);
-    if (isGregory(patches.GetPatchDescriptor(handle).GetType())) return true;
+    if (isGregory(patches.GetPatchDescriptor(handle).GetType()) && !Parts::capOf(parts_->tables.caps.surface, handle))
+        return true;
     return parts_->isCutShort && patches.GetPatchParam(handle).GetDepth() >= parts_->tables.isolation;
 }
 
 LimitFrame ReferenceSurface::limit(int face, const dvec2& uv) const {
     const auto& handle = parts_->patchAt(face, uv);
+    if (const EndCap* cap = Parts::capOf(parts_->tables.caps.surface, handle)) {
+        const auto f = parts_->evaluateCap(*cap, handle, uv, parts_->points, pointCount(parts_->tables));
+        return {f.p, f.pu, f.pv, f.puu, f.puv, f.pvv};
+    }
     const PatchWeights weights = parts_->weightsAt(handle, uv);
     const auto indices = parts_->tables.patches->GetPatchVertices(handle);
     LimitFrame frame;
@@ -186,6 +288,10 @@ LimitFrame ReferenceSurface::limit(int face, const dvec2& uv) const {
 TexFrame ReferenceSurface::texture(int face, const dvec2& uv) const {
     const auto& handle = parts_->patchAt(face, uv);
     if (parts_->texPoints.empty()) return {uv, dmat2(1)};
+    if (const EndCap* cap = Parts::capOf(parts_->tables.caps.texture, handle)) {
+        const auto f = parts_->evaluateCap(*cap, handle, uv, parts_->texPoints, texPointCount(parts_->tables));
+        return {f.p, dmat2(f.pu, f.pv)};
+    }
     const PatchWeights weights = parts_->texWeightsAt(handle, uv);
     const auto indices = parts_->tables.patches->GetPatchFVarValues(handle);
     TexFrame frame{dvec2(0), dmat2(0)};

@@ -152,6 +152,17 @@ int leastIsolation(const Cage& cage, Scheme scheme) {
          cage.faceCount());
 }
 
+/// Appends the limit points of end caps.
+template <typename Value>
+void addLimits(std::vector<Value>& points, const std::vector<EndCaps::Limit>& limits) {
+    for (const EndCaps::Limit& limit : limits) {
+        Value sum;
+        for (std::size_t i = 0; i < limit.points.size(); ++i)
+            sum.AddWithWeight(points[std::size_t(limit.points[i])], limit.weights[Eigen::Index(i)]);
+        points.push_back(sum);
+    }
+}
+
 } // namespace
 
 std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme scheme) {
@@ -166,7 +177,7 @@ std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme schem
     return refiner;
 }
 
-FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options) {
+FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options, int capLevels) {
     if (options.isolation < 0 || options.isolation > 10)
         fail(Failure::usage, "isolation {} is out of range: 0..10", options.isolation);
     FarTables tables;
@@ -178,13 +189,16 @@ FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options) {
     tables.patches.reset(Far::PatchTableFactory::Create(*tables.refiner, patchTableOptions));
     if (!tables.patches) failWithComplaint("no patches could be made of the cage");
     if (tables.patches->GetNumPatchesTotal() == 0) failWithoutPatches(cage);
+    if (options.endCaps == EndCapKind::exact) findEndCaps(tables, capLevels);
     return tables;
 }
 
 std::vector<Point> refineAll(const FarTables& tables, std::span<const vec3> cagePositions) {
     std::vector<Point> points(pointCount(tables));
+    points.reserve(points.size() + tables.caps.limits.size());
     for (std::size_t i = 0; i < cagePositions.size(); ++i) points[i].value = dvec3(cagePositions[i]);
     blendPoints(tables, [&](int first) { return points.data() + first; });
+    addLimits(points, tables.caps.limits);
     return points;
 }
 
@@ -203,6 +217,7 @@ std::vector<TexPoint> refineAllTex(const FarTables& tables, const std::vector<ve
     }
     const auto* local = tables.patches->GetLocalPointFaceVaryingStencilTable<double>();
     if (local && local->GetNumStencils() > 0) local->UpdateValues(points.data(), points.data() + refinedCount);
+    addLimits(points, tables.caps.texLimits);
     return points;
 }
 

@@ -15,6 +15,16 @@ RowTable makeRows(const FarTables& tables) {
     return rows;
 }
 
+/// The limit points of end caps, which follow the table's points.
+void addLimitRows(const EndCaps& caps, RowTable& rows) {
+    for (const EndCaps::Limit& limit : caps.limits) {
+        std::vector<RowTable::Entry> terms;
+        for (std::size_t i = 0; i < limit.points.size(); ++i)
+            terms.push_back({std::uint32_t(limit.points[i]), limit.weights[Eigen::Index(i)]});
+        rows.append(terms);
+    }
+}
+
 /// Renumbers `indices` at or past `first` in order of their first use; returns the old index of each new one.
 std::vector<std::uint32_t> compact(std::vector<std::uint32_t>& indices, std::uint32_t first, std::size_t count) {
     std::vector<std::uint32_t> newIndex(count, kNoPatch), oldIndex;
@@ -87,6 +97,7 @@ void addRow(Stencils& stencils, std::span<const RowTable::Entry> row) {
 void fillStencils(Surface& surface, FarTables tables) {
     RowTable rows = makeRows(tables);
     surface.controlPointCount = tables.refiner->GetLevel(0).GetNumVertices();
+    addLimitRows(tables.caps, rows);
     addStraightCorners(surface, rows);
     const auto used = compact(surface.patchPoints, surface.controlPointCount, rows.size());
     tables = {}; // the largest thing in memory, and not needed beside the arrays that grow below

@@ -92,7 +92,7 @@ public:
         std::vector<std::uint32_t> points;
         points.reserve(surface_.patchPoints.size());
         for (Patch& patch : surface_.patches) {
-            const auto indices = std::span(surface_.patchPoints).subspan(patch.firstPoint, patchSize(patch.type));
+            const auto indices = std::span(surface_.patchPoints).subspan(patch.firstPoint, patch.pointCount);
             patch.firstPoint = std::uint32_t(points.size());
             points.insert(points.end(), indices.begin(), indices.end());
             if (patch.type != kPatchGregory && patch.type != kPatchGregoryTriangle) continue;

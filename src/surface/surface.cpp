@@ -13,7 +13,7 @@ std::uint64_t bytesOf(const std::vector<T>& array) {
 
 std::uint64_t Surface::byteCount() const {
     return bytesOf(faces) + bytesOf(tree) + bytesOf(patches) + bytesOf(patchPoints) + bytesOf(stencils.offsets) +
-           bytesOf(stencils.indices) + bytesOf(stencils.weights) + bytesOf(texPoints) + bytesOf(texPatchPoints) +
+           bytesOf(stencils.indices) + bytesOf(stencils.weights) + bytesOf(capTables) + bytesOf(capWeights) + bytesOf(texPoints) + bytesOf(texPatchPoints) +
            bytesOf(edges) + bytesOf(corners) + bytesOf(incidences) + bytesOf(sectorFaces);
 }
 

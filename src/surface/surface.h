@@ -12,9 +12,23 @@ namespace relief {
 /// Rules of subdivision: Catmull-Clark, Loop (triangles only), bilinear.
 enum class Scheme { catmark, loop, bilinear };
 
+/// What stands for the surface in faces at extraordinary vertices.
+enum class EndCapKind {
+    exact,  ///< the limit surface; Gregory patches where rules are semi-sharp or the vertex has more than 64 faces
+    gregory ///< OpenSubdiv's patches, which approximate it
+};
+
 struct SurfaceOptions {
     Scheme scheme = Scheme::catmark;
     int isolation = 6; ///< levels of adaptive refinement around features, 0..10
+    EndCapKind endCaps = EndCapKind::exact;
+};
+
+/// Weights of one pattern of rules around an extraordinary vertex (surface/caps.h).
+struct CapTable {
+    std::uint32_t firstWeight = 0; ///< into Surface::capWeights
+    std::uint32_t pointCount =
+        0; ///< that a patch has: the limit point, those around the cap, then the limit point again until 4 divides it
 };
 
 /// A sparse matrix that makes refined points of control points:
@@ -39,6 +53,8 @@ struct Surface {
     std::vector<Patch> patches;
     std::vector<std::uint32_t> patchPoints; ///< point indices: cage points, then stencil rows
     Stencils stencils;                      ///< refined and local points
+    std::vector<CapTable> capTables;        ///< of patches of the kinds kPatchExactQuad and kPatchExactTriangle
+    std::vector<float> capWeights;          ///< as shared/surface.h says
 
     std::vector<vec2> texPoints; ///< face-varying points, refined and local; empty without texture coordinates
     std::vector<std::uint32_t> texPatchPoints;

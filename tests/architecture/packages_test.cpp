@@ -25,6 +25,10 @@ const std::map<std::string, std::string> kPackageOf = {
     {"GTest", "libgtest-dev"},
     {"glslangValidator", "glslang-tools"},
     {"glslang", "glslang-dev"},
+    {"glfw3", "libglfw3-dev"},
+    {"imgui.h", "libimgui-dev"},
+    {"imgui", "libimgui-dev"},
+    {"stb", "libimgui-dev"}, // through libstb-dev, which it depends on
     {"spirv-opt", "glslang-tools"}, // through spirv-tools, which it depends on
     {"glm/glm.hpp", "libglm-dev"},
     {"tiny_gltf.h", "libtinygltf-dev"},
@@ -40,7 +44,7 @@ const std::map<std::string, std::string> kPackageOf = {
 };
 
 /// What no find_... names: tools, and what is loaded when relief runs.
-const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "ffmpeg", "fonts-dejavu-core"};
+const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "ffmpeg", "fonts-dejavu-core", "xvfb", "xauth"};
 
 Names packages() {
     Names names;

@@ -51,8 +51,7 @@ DenseMesh meshOf(const std::vector<vec3>& positions, const std::vector<std::uint
     return mesh;
 }
 
-// --- coverage
-// ---------------------------------------------------------------------------------------------------------
+// --- coverage ------------------------------------------------------------------------------------------------------
 
 using Place = glm::i64vec2;
 
@@ -191,8 +190,7 @@ TEST_F(Raster, leavesNoCracksInClosedSurfaces) {
     EXPECT_GT(surfaceCount, 8);
 }
 
-// --- which sample is kept
-// ---------------------------------------------------------------------------------------------
+// --- which sample is kept ------------------------------------------------------------------------------------------
 
 /// Triangles at the same places and depths with different normals: the order in which they arrive must not show.
 TEST_F(Raster, isTheSameInEveryOrder) {
@@ -222,8 +220,7 @@ TEST_F(Raster, isTheSameInEveryOrder) {
     EXPECT_EQ(draw(), first);
 }
 
-// --- pictures
-// ---------------------------------------------------------------------------------------------------------
+// --- pictures ------------------------------------------------------------------------------------------------------
 
 /// A displaced ball with a color map.
 struct Scene {

@@ -41,6 +41,7 @@ TEST_F(GoldenMutants, areSeen) {
         const auto result = compareWithGolden(drawGolden(scenes_, name, mutatedWords(mutant), kDevice), mutant.golden);
         ASSERT_TRUE(result);
         EXPECT_FALSE(isSame(*result)) << mutant.golden << ' ' << mutant.to << ": " << *result;
+        EXPECT_FALSE(isSameOfAnotherDriver(*result)) << mutant.golden << ' ' << mutant.to << ": " << *result;
     }
 }
 

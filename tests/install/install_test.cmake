@@ -1,5 +1,5 @@
 # Installs into a fresh folder, builds README.md's example against it and runs it: cmake -DSOURCE= -DBINARY= -DCONFIG=
-# -DSANITIZE= -P install_test.cmake
+# -P install_test.cmake
 cmake_minimum_required(VERSION 3.25)
 set(work ${BINARY}/install-test)
 file(REMOVE_RECURSE ${work})
@@ -41,12 +41,8 @@ string(FIND "${example}" "```" length)
 string(SUBSTRING "${example}" 0 ${length} example)
 file(WRITE ${work}/example.cpp "${example}")
 
-set(flags "")
-if(SANITIZE) # the libraries want its runtime
-    set(flags -DCMAKE_CXX_FLAGS=-fsanitize=address,undefined)
-endif()
 step("configure" COMMAND ${CMAKE_COMMAND} -S ${SOURCE}/tests/install -B ${work}/build -G Ninja
-    -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_PREFIX_PATH=${work}/prefix -DEXAMPLE=${work}/example.cpp ${flags})
+    -DCMAKE_BUILD_TYPE=${CONFIG} -DCMAKE_PREFIX_PATH=${work}/prefix -DEXAMPLE=${work}/example.cpp)
 step("build" COMMAND ${CMAKE_COMMAND} --build ${work}/build)
 
 # The files that the example names.

@@ -1,0 +1,36 @@
+// What `relief bake` says of a map and of the surface that it makes.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bake/bake.h"
+#include "check/check.h"
+
+namespace relief::app {
+
+/// Everything that is known of a pair of a map and a sculpt, in cage units.
+struct BakeReport {
+    std::string cage, sculpt, map;
+    int width = 0, height = 0;
+    double mid = 0, scale = 1, lowest = 0, highest = 0; ///< of the map's values; lowest and highest are heights
+    std::uint64_t sculptTriangles = 0;
+    bool isBaked = false; ///< else the map was there before, and nothing is known of its texels
+    BakedHeights baked;   ///< counts alone
+    IslandOverlap overlap;
+    BakeCertificate certificate;
+    SeamReport seams;
+    double diagonal = 1, unit = 1; ///< of the sculpt's box, cage units; cage units per unit of the certificate
+    double tolerance = 0;          ///< cage units
+    double readSeconds = 0, bakeSeconds = 0, certifySeconds = 0;
+
+    /// The larger root mean square of both directions, cage units.
+    [[nodiscard]] double rms() const;
+    [[nodiscard]] bool passes() const { return rms() <= tolerance; }
+};
+
+std::string toText(const BakeReport& report);
+nlohmann::json toJson(const BakeReport& report);
+
+} // namespace relief::app

@@ -1,0 +1,40 @@
+// Heights of a sculpt over a surface: one line per sample of a texel.
+#pragma once
+
+#include "bake/texels.h"
+#include "distance/distance.h"
+
+namespace relief {
+
+enum class TexelState : std::uint8_t {
+    outside, ///< no sample of it lies on the surface
+    hit,
+    missed, ///< a void: all its lines miss the sculpt
+};
+
+struct BakeOptions {
+    LineReach reach;               ///< of lines along the normal and against it
+    Facing facing = Facing::front; ///< of the triangles that count
+    Wrap wrap = Wrap::repeat;      ///< what lies outside of the map
+    ShowProgress progress = ShowProgress::never;
+};
+
+/// A baked map. Counts of texels are of those that have a sample inside of an island.
+struct BakedHeights {
+    int width = 0, height = 0;
+    std::vector<float> heights; ///< in the unit of the surface, rows from the top
+    std::vector<TexelState> states;
+    std::uint64_t texelCount = 0, voidCount = 0;
+    std::uint64_t sampleCount = 0, missCount = 0;
+    std::uint64_t behindCount = 0; ///< samples whose line passes the back of another triangle first
+};
+
+/// Looks for the sculpt on the line through the limit point of each sample along the limit normal, in both directions;
+/// of the hits on the right side of triangles the nearest to the surface wins (Lee, Moreton and Hoppe 2000, section
+/// 4.4). On all cores; the result does not depend on how many there are.
+/// Texels without a hit are filled: voids on the surface by a membrane between the texels around them (a discrete
+/// Laplace equation), all others by means of the heights around them. A map without any hit stays 0.
+BakedHeights bakeHeights(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const TexelSource& texels,
+                         const BakeOptions& options);
+
+} // namespace relief

@@ -1,0 +1,359 @@
+// What events and panels do.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <malloc.h>
+#include <nlohmann/json.hpp>
+#include <spawn.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "view/keys.h"
+#include "view/viewer.h"
+
+namespace relief {
+namespace {
+
+constexpr double kDividerPixels = 8; ///< how near the cursor takes the divider
+constexpr double kZoomPerStep = 0.9, kRatePerKey = 1.25;
+
+/// The first of name-1.png, name-2.png, ... that does not exist.
+std::string freeName(const std::string& name, const std::string& extension) {
+    for (int i = 1;; ++i) {
+        const std::string path = fmt::format("{}-{}{}", name, i, extension);
+        if (!std::filesystem::exists(path)) return path;
+    }
+}
+
+/// Bytes that the process has of the heap.
+std::uint64_t hostBytes() {
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+}
+
+template <typename Value, std::size_t kCount>
+Value nextOf(const Word<Value> (&table)[kCount], Value value) {
+    for (std::size_t i = 0; i < kCount; ++i)
+        if (table[i].value == value) return table[(i + 1) % kCount].value;
+    return table[0].value;
+}
+
+} // namespace
+
+// --- events --------------------------------------------------------------------------------------------------------
+
+void Viewer::takeEvents(double now) {
+    std::deque<Event>& live = window_.events();
+    if (!played_.empty()) {
+        live.clear(); // the user's own wait until the file has been played
+        if (takePlayed(now)) uiFrames_ = kFramesAfterEvent;
+        return;
+    }
+    // Panels see each press by itself, and at the place that the cursor has moved to.
+    bool hasMoved = false;
+    while (!live.empty()) {
+        const Event event = live.front();
+        if (event.kind == EventKind::press && hasMoved) return;
+        live.pop_front();
+        if (record_.is_open()) record_ << toLine(event) << '\n';
+        apply(event);
+        uiFrames_ = kFramesAfterEvent;
+        hasMoved = hasMoved || event.kind == EventKind::move;
+        if (event.kind != EventKind::move && event.kind != EventKind::wheel) return;
+    }
+}
+
+/// Applies the next played event if it is its turn; returns whether it was.
+bool Viewer::takePlayed(double now) {
+    const Event event = played_.front();
+    const bool isResting = pacing_.isAtRest() && uiFrames_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
+    switch (event.kind) {
+    case EventKind::rest:
+        if (isResting) played_.pop_front();
+        return false;
+    case EventKind::wait:
+        if (playedUntil_ == 0) playedUntil_ = now + event.at.x;
+        if (now < playedUntil_) return false;
+        playedUntil_ = 0;
+        played_.pop_front();
+        return false;
+    case EventKind::frames:
+        framesToPlay_ = int(event.at.x);
+        played_.front() = {.kind = EventKind::wait}; // goes on once they are drawn
+        playedUntil_ = 0;
+        return false;
+    default: break;
+    }
+    if (framesToPlay_ > 0) return false;
+    played_.pop_front();
+    apply(event);
+    return event.kind != EventKind::report;
+}
+
+void Viewer::apply(const Event& event) {
+    const bool isTaken = ui_->take(event);
+    switch (event.kind) {
+    case EventKind::move: move(event.at); break;
+    case EventKind::press:
+        if (!isTaken) press(event);
+        break;
+    case EventKind::release: drag_.reset(), dragsDivider_ = false; break;
+    case EventKind::wheel:
+        if (!isTaken) setOrbit(zoom(orbit(), std::pow(kZoomPerStep, event.at.x), cursor_, state_.look.scene.size));
+        break;
+    case EventKind::key:
+        if (!isTaken) pressKey(event.key);
+        break;
+    case EventKind::drop: drop(event.text); break;
+    case EventKind::size: {
+        const ivec2 size(event.at);
+        if (window_.size() == size) break;
+        window_.resize(size);
+        for (int i = 0; i < 200 && window_.size() != size; ++i) window_.waitForEvents(0.01);
+        break;
+    }
+    case EventKind::frame: seek(int(event.at.x)); break;
+    case EventKind::screenshot: shoot(event.text); break;
+    case EventKind::report: report(); break;
+    case EventKind::close: isClosed_ = true; break;
+    default: break;
+    }
+}
+
+// --- mouse ---------------------------------------------------------------------------------------------------------
+
+void Viewer::press(const Event& event) {
+    drag_ = event;
+    const double divider = state_.divider * state_.look.scene.size.x;
+    dragsDivider_ = state_.split != SplitKind::off && std::abs(cursor_.x - divider) < kDividerPixels;
+}
+
+void Viewer::move(const dvec2& to) {
+    const dvec2 moved = to - cursor_;
+    cursor_ = to;
+    if (!drag_ || moved == dvec2(0)) return;
+    const ivec2& size = state_.look.scene.size;
+    if (dragsDivider_) {
+        state_.divider = std::clamp(to.x / size.x, 0.02, 0.98);
+        changePicture();
+    } else if (drag_->isControlled) {
+        LightingDesc& lighting = state_.look.scene.lighting;
+        const Lighting now = makeLighting(lighting, state_.look.scene.camera.azimuth, nullptr);
+        lighting.key = dvec2(std::remainder(now.keyAzimuth + 0.5 * moved.x, 360),
+                             std::clamp(now.keyElevation - 0.5 * moved.y, -90.0, 90.0));
+        changePicture();
+    } else if (drag_->button == Button::middle || drag_->isShifted) {
+        setOrbit(pan(orbit(), moved, size.y));
+    } else if (drag_->button == Button::right) {
+        setOrbit(zoom(orbit(), std::exp(0.01 * moved.y), 0.5 * dvec2(size), size));
+    } else {
+        setOrbit(turn(orbit(), moved));
+    }
+}
+
+Orbit Viewer::orbit() const {
+    const SceneDesc& scene = state_.look.scene;
+    return makeOrbit(scene.camera, scene_->makeCamera(state_.look, scene.size), scene_->coordinates());
+}
+
+void Viewer::setOrbit(const Orbit& orbit) {
+    state_.look.scene.camera = toOptions(orbit);
+    changePicture();
+}
+
+void Viewer::look(double azimuth, double elevation) {
+    Orbit turned = orbit();
+    turned.azimuth = azimuth, turned.elevation = elevation;
+    setOrbit(turned);
+}
+
+void Viewer::frameObject() {
+    CameraOptions& camera = state_.look.scene.camera;
+    camera.distance.reset(), camera.lookAt.reset();
+    changePicture();
+}
+
+// --- keys ----------------------------------------------------------------------------------------------------------
+
+void Viewer::pressKey(int key) {
+    switch (key) {
+    case GLFW_KEY_SPACE:
+        state_.isPlaying = !state_.isPlaying && scene_->isMoving();
+        playStart_ = secondsNow(), playStartFrame_ = state_.look.frame;
+        break;
+    case GLFW_KEY_LEFT: step(-1); break;
+    case GLFW_KEY_RIGHT: step(1); break;
+    case GLFW_KEY_R: changeObject(); break;
+    case GLFW_KEY_C: obey({.copies = true}); break;
+    case GLFW_KEY_F12: obey({.shoots = true}); break;
+    case GLFW_KEY_TAB: state_.showsPanels = !state_.showsPanels; break;
+    case GLFW_KEY_SLASH: state_.showsHelp = !state_.showsHelp; break;
+    case GLFW_KEY_ESCAPE: state_.showsHelp = false, state_.error.clear(), state_.notice.clear(); break;
+    case GLFW_KEY_Q: isClosed_ = true; break;
+    default: pressViewKey(key); break;
+    }
+}
+
+void Viewer::pressViewKey(int key) {
+    const CameraOptions& camera = state_.look.scene.camera;
+    Show& show = state_.look.show;
+    const auto isAt = [&](double azimuth) { return std::abs(std::remainder(camera.azimuth - azimuth, 360)) < 1e-9; };
+    switch (key) {
+    case GLFW_KEY_F: return frameObject();
+    case GLFW_KEY_1: return look(isAt(0) && camera.elevation == 0 ? 180 : 0, 0);
+    case GLFW_KEY_3: return look(isAt(90) && camera.elevation == 0 ? -90 : 90, 0);
+    case GLFW_KEY_7: return look(0, camera.elevation == 90 ? -90 : 90);
+    case GLFW_KEY_5:
+        return setOrbit(
+            widen(orbit(), camera.fieldOfView == kParallelView ? CameraOptions().fieldOfView : kParallelView));
+    case GLFW_KEY_W:
+        show = show == Show::shaded ? Show::wireframe : show == Show::wireframe ? Show::faces : Show::shaded;
+        return changePicture();
+    case GLFW_KEY_N: show = nextOf(kShows, show); return changePicture();
+    case GLFW_KEY_H: state_.showsCage = !state_.showsCage; return;
+    case GLFW_KEY_X: state_.split = nextOf(kSplits, state_.split); return changePicture();
+    case GLFW_KEY_Z: state_.isFrozen = !state_.isFrozen; return changePicture();
+    case GLFW_KEY_D: {
+        Detail& detail = state_.look.scene.object.height.detail;
+        detail = nextOf(kDetails, detail);
+        return changeObject();
+    }
+    default: return pressTriangleKey(key);
+    }
+}
+
+void Viewer::pressTriangleKey(int key) {
+    TriangleOptions& triangles = state_.look.triangles;
+    const auto refine = [&](double factor) {
+        if (triangles.rate)
+            triangles.rate = std::clamp(*triangles.rate + (factor < 1 ? 1 : -1), 1, 64);
+        else
+            triangles.edgePixels = std::clamp(triangles.edgePixels * factor, 0.25, 256.0);
+    };
+    switch (key) {
+    case GLFW_KEY_EQUAL: refine(1 / kRatePerKey); break;
+    case GLFW_KEY_MINUS: refine(kRatePerKey); break;
+    case GLFW_KEY_T: triangles.spacing = nextOf(kSpacings, triangles.spacing); break;
+    case GLFW_KEY_V: triangles.rate = triangles.rate ? std::nullopt : std::optional(8); break;
+    default: return;
+    }
+    changePicture();
+}
+
+// --- files ---------------------------------------------------------------------------------------------------------
+
+/// A mesh is the new cage, .hdr the environment, any other picture the height map.
+void Viewer::drop(const std::string& path) {
+    const std::string extension = lowerExtension(path);
+    ObjectDesc& object = state_.look.scene.object;
+    const auto isOneOf = [&](std::initializer_list<const char*> list) {
+        return std::ranges::any_of(list, [&](const char* each) { return extension == each; });
+    };
+    if (isOneOf({".obj", ".gltf", ".glb"})) {
+        object.cage = path;
+        frameObject();
+    } else if (extension == ".hdr") {
+        state_.look.scene.lighting.environment = path;
+    } else if (isOneOf({".exr", ".tif", ".tiff", ".png", ".jpg", ".jpeg"})) {
+        object.height.path = path;
+        object.height.function.clear(), object.height.functionBound.reset();
+    } else if (extension == ".glsl") {
+        object.height.function = path;
+        object.height.path.clear();
+    } else {
+        state_.error = onOneLine(path + ": a cage, an environment (.hdr), a height map or a height function (.glsl) "
+                                        "can be dropped");
+        return;
+    }
+    changeObject();
+}
+
+void Viewer::shoot(const std::string& path) {
+    const std::vector<std::string> inputs = listFiles(shownLook().scene);
+    if (std::ranges::find(inputs, path) != inputs.end())
+        fail(Failure::usage, "{}: the screenshot would replace what is shown", path);
+    if (!pacing_.isAtRest()) drawPicture(Quality::full);
+    writePicture(path, picture_, state_.look.finish);
+    state_.notice = path + " is written";
+}
+
+void Viewer::exportTurntable() {
+    if (export_ > 0) return;
+    const std::string target = freeName("turntable", ".mp4");
+    std::vector<std::string> words = toCommandWords("animate", desc_.given, desc_.look, shownLook());
+    std::erase_if(words, [](const std::string& word) { return word.starts_with("--frames"); });
+    for (const char* word : {"--turntable=72", "--quiet", "--progress=never", "-o"}) words.emplace_back(word);
+    words.push_back(target);
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t child = -1;
+    const bool isStarted = posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, arguments.data(), environ) == 0;
+    export_ = isStarted ? child : -1;
+    state_.notice = isStarted ? "writing " + target + " ..." : "no more processes can be started";
+}
+
+void Viewer::report() {
+    const nlohmann::json counts{{"frames", report_.frameCount},
+                                {"pictures", report_.pictureCount},
+                                {"coarse", report_.coarseCount},
+                                {"reloads", report_.reloadCount},
+                                {"device_bytes", device_->allocatedBytes()},
+                                {"host_bytes", hostBytes()},
+                                {"frame", state_.look.frame},
+                                {"triangles", stats_.triangleCount},
+                                {"error", state_.error},
+                                {"command", command()}};
+    report_.counts.push_back(counts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+// --- panels --------------------------------------------------------------------------------------------------------
+
+void Viewer::obey(const PanelWishes& wishes) {
+    if (wishes.changesPicture) changePicture();
+    if (wishes.changesObject) changeObject();
+    if (wishes.frames) frameObject();
+    if (wishes.reloads) changeObject();
+    if (wishes.frontOf) look(*wishes.frontOf, 0);
+    if (wishes.seeks) seek(*wishes.seeks);
+    if (wishes.exports) exportTurntable();
+    if (wishes.copies) {
+        window_.copyText(toShellLine(command()));
+        state_.notice = "copied: " + toShellLine(command());
+    }
+    if (wishes.shoots) {
+        try {
+            shoot(freeName("relief", ".png"));
+        } catch (const Error& error) {
+            state_.error = onOneLine(error.what());
+        }
+    }
+    const bool isAny = wishes.changesPicture || wishes.changesObject || wishes.frames || wishes.copies ||
+                       wishes.shoots || wishes.exports || wishes.frontOf || wishes.seeks;
+    if (isAny) uiFrames_ = kFramesAfterEvent;
+}
+
+void Viewer::seek(int frame) {
+    if (!scene_->isMoving()) return;
+    state_.isPlaying = false;
+    state_.look.frame = std::clamp(frame, scene_->frames().front(), scene_->frames().back());
+    changePicture();
+}
+
+void Viewer::step(int frames) { seek(state_.look.frame + frames); }
+
+Look Viewer::shownLook() const {
+    Look look = state_.look;
+    const Look& shown = scene_->look();
+    look.scene.object = shown.scene.object;
+    look.scene.object.material.roughness = state_.look.scene.object.material.roughness;
+    look.scene.lighting.environment = shown.scene.lighting.environment;
+    return look;
+}
+
+std::vector<std::string> Viewer::command() const {
+    return toCommandWords(scene_->isMoving() ? "animate" : "render", desc_.given, desc_.look, shownLook());
+}
+
+} // namespace relief

@@ -1,0 +1,49 @@
+// The limit surface close to one vertex of a cage, by refinement alone: a mesh is refined again and again, and all that
+// is far from the vertex is forgotten. It uses neither OpenSubdiv nor the library's own rules and matrices.
+#pragma once
+
+#include <map>
+#include <set>
+
+#include "surface/surface.h"
+
+namespace relief {
+
+class DeepOracle {
+public:
+    /// Follows a vertex of the cage.
+    DeepOracle(const Cage& cage, Scheme scheme, std::uint32_t vertex);
+
+    void refine();
+    [[nodiscard]] int level() const { return level_; }
+
+    /// A point of the limit surface; of triangles without second derivatives.
+    struct Sample {
+        int face = 0; ///< OpenSubdiv's
+        dvec2 uv{0};
+        LimitFrame frame;
+    };
+    /// The regular points inside faces near the vertex: some steps of 2^-level away.
+    [[nodiscard]] std::vector<Sample> samples() const;
+
+private:
+    struct Face {
+        std::vector<int> vertices;
+        int face = -1;   ///< OpenSubdiv's, once it has one
+        ivec2 origin{0}; ///< of its corner 0, in steps of 2^-depth
+        int sign = 1;    ///< -1 in turned triangles
+        int depth = 0;   ///< levels below OpenSubdiv's face
+    };
+    using EdgeKey = std::pair<int, int>;
+    static EdgeKey keyOf(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
+    void keepNear();
+
+    int sideCount_, level_ = 0, vertex_;
+    std::vector<dvec3> positions_;
+    std::vector<Face> faces_;
+    std::map<EdgeKey, double> sharpness_; ///< of sharp edges; boundary edges are infinitely sharp
+    std::map<int, double> vertexSharpness_;
+    std::set<EdgeKey> boundary_;
+};
+
+} // namespace relief
