@@ -53,7 +53,7 @@ void main() {
     vec3 down = vec3(inputs.view.toClip[0].y, inputs.view.toClip[1].y, inputs.view.toClip[2].y);
     float w = dot(vec4(position, 1.0), vec4(inputs.view.toClip[0].w, inputs.view.toClip[1].w, inputs.view.toClip[2].w,
                                             inputs.view.toClip[3].w));
-    float reach = min(0.5 * float(size.y) * length(down) * inputs.light.occlusionRadius / max(w, 1e-20), 256.0);
+    float radius = min(0.5 * float(size.y) * length(down) * inputs.light.occlusionRadius / max(w, 1e-20), 256.0);
 
     // Slices are turned from pixel to pixel; 4 x 4 pixels have all turns.
     float turn = float((at.x & 3) * 4 + (at.y & 3)) / 16.0, open = 0.0;
@@ -69,8 +69,8 @@ void main() {
         float gamma = sign(dot(projected, tangent)) * acos(clamp(dot(projected, v) / length_, -1.0, 1.0));
         // Horizons to both sides, not below the surface's own half space.
         float lowest1 = cos(gamma + 0.5 * kPi), lowest2 = cos(gamma - 0.5 * kPi);
-        float h1 = acos(clamp(horizonCosine(position, v, pixel, along * reach, jitter, lowest1), -1.0, 1.0));
-        float h2 = -acos(clamp(horizonCosine(position, v, pixel, -along * reach, jitter, lowest2), -1.0, 1.0));
+        float h1 = acos(clamp(horizonCosine(position, v, pixel, along * radius, jitter, lowest1), -1.0, 1.0));
+        float h2 = -acos(clamp(horizonCosine(position, v, pixel, -along * radius, jitter, lowest2), -1.0, 1.0));
         h1 = gamma + min(h1 - gamma, 0.5 * kPi);
         h2 = gamma + max(h2 - gamma, -0.5 * kPi);
         float arc = 0.25 * (-cos(2.0 * h1 - gamma) + cos(gamma) + 2.0 * h1 * sin(gamma)) +

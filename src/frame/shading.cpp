@@ -40,26 +40,6 @@ DenseMesh makeBall(std::uint32_t n) {
     return ball;
 }
 
-/// Renders the ball as an eye in the direction `back` sees it from so far away that all lines of sight are parallel.
-/// Linear light with alpha.
-Image renderBall(Device& device, const Material& material, Lighting lighting, const dvec3& back, int side) {
-    const DenseMesh mesh = makeBall(256);
-    const MeshModel model(device, {.mesh = &mesh});
-    constexpr double kDistance = 1e3;
-    RenderOptions options;
-    options.lighting = std::move(lighting);
-    options.lighting.castsShadows = false;
-    options.lighting.occlusionRadius = 0;
-    options.bounds = computeBounds(mesh.positions);
-    options.raster = Raster::hardware;
-    options.camera = {.eye = kDistance * back,
-                      .fieldOfView = 2 * std::asin(1 / kDistance) * 180 / std::numbers::pi,
-                      .nearDistance = kDistance - 2,
-                      .farDistance = kDistance + 2};
-    Renderer renderer(device, {.width = side, .height = side, .shadowSide = 1});
-    return renderer.render(Instance(model, material), options).image();
-}
-
 /// Colors of what the ball covers of each pixel, which are means of `part` x `part` pixels.
 Image toBall(const Image& picture, int part) {
     const int side = picture.width / part;
@@ -77,6 +57,25 @@ Image toBall(const Image& picture, int part) {
 }
 
 } // namespace
+
+BallStudio::BallStudio(Device& device, int side)
+    : mesh(makeBall(256)), model(device, {.mesh = &mesh}),
+      renderer(device, {.width = side, .height = side, .shadowSide = 1}) {}
+
+Image BallStudio::draw(const Material& material, Lighting lighting, const dvec3& back) {
+    constexpr double kDistance = 1e3;
+    RenderOptions options;
+    options.lighting = std::move(lighting);
+    options.lighting.castsShadows = false;
+    options.lighting.occlusionRadius = 0;
+    options.bounds = computeBounds(mesh.positions);
+    options.raster = Raster::hardware;
+    options.camera = {.eye = kDistance * back,
+                      .fieldOfView = 2 * std::asin(1 / kDistance) * 180 / std::numbers::pi,
+                      .nearDistance = kDistance - 2,
+                      .farDistance = kDistance + 2};
+    return renderer.render(Instance(model, material), options).image();
+}
 
 // --- what is shaded with ------------------------------------------------------------------------------------------
 
@@ -124,14 +123,15 @@ GpuMatcap uploadMatcap(Device& device, Image ball) {
 
 Image renderMatcap(Device& device, const Material& material, const Lighting& lighting, const dvec2& from, int side) {
     // Twice as many pixels each way as the picture has: the rim has no steps.
-    return toBall(renderBall(device, material, lighting, directionAt(from.x, from.y), 2 * side), 2);
+    return toBall(BallStudio(device, 2 * side).draw(material, lighting, directionAt(from.x, from.y)), 2);
 }
 
 /// The ball that stands for the picture's own material and lights, as its camera sees them.
 void Renderer::Parts::makeOwnMatcap(const Material& material, const RenderOptions& options) {
     constexpr int kSide = 1024;
     const dvec3 back = glm::normalize(options.camera.eye - options.camera.target);
-    ownMatcap = uploadMatcap(device, toBall(renderBall(device, material, options.lighting, back, kSide), 1));
+    if (!ball) ball = std::make_unique<BallStudio>(device, kSide);
+    ownMatcap = uploadMatcap(device, toBall(ball->draw(material, options.lighting, back), 1));
 }
 
 void Renderer::Parts::useShading(Frame& frame) {
@@ -146,7 +146,8 @@ void Renderer::Parts::useShading(Frame& frame) {
         use(*shadingTable);
     }
     if (frame.shading != kShadingMatcap) return;
-    use(frame.options.matcap != nullptr ? frame.options.matcap->ball : ownMatcap->ball);
+    const GpuMatcap* ball = frame.options.matcap != nullptr ? frame.options.matcap : ownMatcap ? &*ownMatcap : nullptr;
+    if (ball != nullptr) use(ball->ball); // crossings need no light
     // The ball has the material's color: what is left to multiply it by is a color map.
     for (pass::Material& material : frame.materials) material.albedo = vec3(1);
 }

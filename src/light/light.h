@@ -44,7 +44,7 @@ inline constexpr int kCubeFaces = 6;
 /// Number of pictures that a shape consists of.
 constexpr int countImages(EnvironmentShape shape) { return shape == EnvironmentShape::cube ? kCubeFaces : 1; }
 
-/// A point of a picture: the number of the image, and the place in it from (0,0) at the top left to (1,1).
+/// A point of a picture: the number of the image, and the point of it from (0,0) at the top left to (1,1).
 struct PicturePoint {
     int image = 0;
     dvec2 at{0};

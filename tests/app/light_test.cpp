@@ -61,7 +61,7 @@ TEST_F(LightVerbs, convertEnvironmentsAndSayWhatTheyWere) {
 }
 
 // Pictures differ by what is asked for, and what is the default changes nothing.
-TEST_F(LightVerbs, reachThePicture) {
+TEST_F(LightVerbs, areSeenInThePicture) {
     const std::vector<float> usual = drawn("");
     for (const char* same : {"--shading physical", "--occlusion 0", "--light -25,50", "--light -25 50"})
         EXPECT_EQ(drawn(same), usual) << same;

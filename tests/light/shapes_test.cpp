@@ -60,11 +60,11 @@ TEST(Shapes, areContinuousAcrossSeamsEdgesAndPoles) {
     for (const EnvironmentShape shape : kShapes) {
         const EnvironmentPicture picture = drawPicture(shape, 32, smoothLight);
         // Across the seam of longitudes, along the edges and corners of the cube, around a pole.
-        const dvec3 places[] = {{0, 0.3, 1}, {1, 0.2, -1}, {1, 1, 1}, {1, 1, -1}, {0, 1, 0.001}, {-1, -1, 0.5}};
-        for (const dvec3& place : places)
+        const dvec3 points[] = {{0, 0.3, 1}, {1, 0.2, -1}, {1, 1, 1}, {1, 1, -1}, {0, 1, 0.001}, {-1, -1, 0.5}};
+        for (const dvec3& point : points)
             for (const dvec3& aside : {dvec3(1e-6, 0, 0), dvec3(0, 1e-6, 0), dvec3(0, 0, 1e-6)})
-                EXPECT_LT(glm::length(lookUp(picture, place + aside) - lookUp(picture, place - aside)), 0.02)
-                    << int(shape) << ' ' << place.x << ' ' << place.y << ' ' << place.z;
+                EXPECT_LT(glm::length(lookUp(picture, point + aside) - lookUp(picture, point - aside)), 0.02)
+                    << int(shape) << ' ' << point.x << ' ' << point.y << ' ' << point.z;
     }
 }
 
