@@ -66,6 +66,10 @@ TEST(Shapes, areContinuousAcrossSeamsEdgesAndPoles) {
                 EXPECT_LT(glm::length(lookUp(picture, point + aside) - lookUp(picture, point - aside)), 0.02)
                     << int(shape) << ' ' << point.x << ' ' << point.y << ' ' << point.z;
     }
+    // Around the pole of eight rows, the outermost texels are eleven degrees from it.
+    const EnvironmentPicture coarse = drawPicture(EnvironmentShape::equirect, 8, smoothLight);
+    for (const double y : {1.0, -1.0})
+        EXPECT_LT(glm::length(lookUp(coarse, {1e-6, y, 0}) - lookUp(coarse, {-1e-6, y, 0})), 0.001) << y;
 }
 
 // cube -> sphere -> cube and equirect -> cube -> equirect, texel by texel.
