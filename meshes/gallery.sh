@@ -40,9 +40,7 @@ picture bricks cube --height "$maps/bricks.exr" --albedo "$maps/bricks_albedo.pn
     --edge-pixels 1.5 --path grid --size 800,800
 picture wireframe octopus --height "$maps/octopus.exr" --show wireframe --azimuth -10 --elevation 12 --fov 24 \
     --edge-pixels 10 --size 1280,800
-# Light: water that mirrors the studio, metal, two lights with creases, and a ball's picture in place of both.
-picture water plane --height-function waves --scale 0.4 --time 2 --metallic 0 --roughness 0.02 --color 0.01,0.05,0.07 \
-    --azimuth 20 --elevation 14 --edge-pixels 1.5 --size 960,540
+# Light: metal, three lights with creases, and a ball's picture in place of both.
 picture metal torus --height "$maps/golf.exr" --metallic 1 --roughness 0.15 --color 0.95,0.64,0.37 --occlusion 0.1 \
     --azimuth 25 --elevation 32 --edge-pixels 1.5 --size 960,540
 picture lights octopus --height "$maps/octopus.exr" --color 0.6,0.6,0.6 --azimuth -10 --elevation 12 --fov 24 --occlusion 0.1 \
