@@ -416,7 +416,7 @@ TEST_F(ShadingOnDevice, shadowsAreThoseOfRays) {
                 .keyAzimuth = each.azimuth, .keyElevation = each.elevation, .castsShadows = castsShadows};
             if (isAdded) {
                 options.lighting.others = {{.azimuth = each.azimuth, .elevation = each.elevation}};
-                options.lighting.keyStrength = 0;
+                options.lighting.keyStrength = 0, options.lighting.keyAzimuth += 120; // its shadows are others
             }
             return renderer.render(Instance(model), options);
         };
