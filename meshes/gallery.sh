@@ -80,6 +80,15 @@ for filter in nearest bilinear mipmap anisotropic; do
         --elevation 25 --fov 24 --roughness 0.35 --light 300,25 --no-shadows --size 300,300 -q -o "$out/filter_$filter.png"
 done
 
+# A sculpt, the limit surface of its cage, the same surface displaced by what was baked, and how far it is off.
+"$relief" export "$meshes/strawberry.obj" --height "$maps/strawberry.exr" --rate 24 -q -o "$out/sculpt.obj"
+"$relief" bake "$meshes/strawberry.obj" "$out/sculpt.obj" --size 1024,1024 -q -o "$out/baked.exr" --heatmap "$out/bake_error.png"
+set -- --color 0.75,0.75,0.72 --size 400,400 -q
+"$relief" render "$out/sculpt.obj" "$@" -o "$out/bake_sculpt.png"
+"$relief" render "$meshes/strawberry.obj" "$@" -o "$out/bake_limit.png"
+"$relief" render "$meshes/strawberry.obj" --height "$out/baked.exr" --edge-pixels 1 "$@" -o "$out/bake_displaced.png"
+rm -f "$out/sculpt.obj" "$out/baked.exr"
+
 # Per frame only the cage's 1958 points go to the device.
 "$relief" animate "$meshes/octopus.obj" --map-format unorm16 --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
     --deform "twist(axis=y, angle=35*sin(pi*t)) wave(axis=x, amplitude=0.035, wavelength=0.5, speed=0.25, along=y) \

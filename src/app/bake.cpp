@@ -6,87 +6,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/bake_options.h"
 #include "app/bake_report.h"
 #include "app/commands.h"
 #include "app/heatmap.h"
-#include "app/object_options.h"
-#include "app/options.h"
-#include "app/output.h"
-#include "app/picture_options.h"
-#include "app/units.h"
 #include "base/clock.h"
 
 namespace relief::app {
 namespace {
-
-constexpr Word<SampleType> kHeightFormats[] = {
-    {"float", SampleType::real, "32-bit floats: .exr .tif"},
-    {"half", SampleType::half, "16-bit floats: .exr"},
-    {"unorm16", SampleType::uint16,
-     "16-bit integers over the range of the heights, or by --mid and --scale: .png .tif"},
-};
-
-struct BakeArgs {
-    ObjectDesc
-        object; ///< its height is read with --check; else its mid and scale are those of the file that is written
-    std::string sculpt, target, voids, heatmap, device;
-    std::optional<SampleType> sample;
-    ivec2 size{1024};
-    int sampleCount = 4;
-    double margin = 2;
-    Distance front{0.05, true}, back{0.05, true}, tolerance{0.001, true};
-    bool checksOnly = false;
-    Output output;
-};
-
-// --- options ------------------------------------------------------------------------------------------------------
-
-/// "5%", or "0.1,0.2" for both directions.
-void parseReach(const std::string& words, BakeArgs& args) {
-    const std::size_t comma = words.find(',');
-    const std::optional<Distance> front = parseDistance(words.substr(0, comma));
-    const std::optional<Distance> back = comma == std::string::npos ? front : parseDistance(words.substr(comma + 1));
-    for (const std::optional<Distance>& distance : {front, back})
-        if (!distance || !(distance->value >= 0) || !std::isfinite(distance->value))
-            throw CLI::ValidationError("--max-distance", words + " is no distance, or two with a comma between them");
-    args.front = *front, args.back = *back;
-}
-
-SampleType chooseSample(const BakeArgs& args) {
-    const std::string extension = lowerExtension(args.target);
-    const bool isFloat = extension == ".exr";
-    if (extension != ".exr" && extension != ".png" && extension != ".tif" && extension != ".tiff")
-        fail(Failure::usage, "{}: heights are written as .exr, .tif or .png", args.target);
-    const SampleType sample = args.sample.value_or(extension == ".png" ? SampleType::uint16 : SampleType::real);
-    const bool fits = isFloat               ? sample != SampleType::uint16
-                      : extension == ".png" ? sample == SampleType::uint16
-                                            : sample != SampleType::half;
-    if (!fits)
-        fail(Failure::usage, "{}: {} holds no {} heights", args.target, extension, wordOf(kHeightFormats, sample));
-    return sample;
-}
-
-/// What makes no sense, and outputs that cannot be written, before anything is read.
-void checkArgs(const BakeArgs& args) {
-    const std::vector<std::string> inputs{args.object.cage, args.sculpt, args.object.height.path};
-    if (args.checksOnly) {
-        if (args.object.height.path.empty()) fail(Failure::usage, "--check needs the map: name it with --height");
-        if (!args.target.empty() || !args.voids.empty())
-            fail(Failure::usage, "--check writes no map; -o and --voids are for baking one");
-    } else {
-        if (args.target.empty())
-            fail(Failure::usage, "name the map to write with -o, or the map to check with --check --height");
-        if (!args.object.height.path.empty())
-            fail(Failure::usage, "--height is for --check; the map to write is named with -o");
-        chooseSample(args);
-        checkOutput(args.target, inputs);
-    }
-    if (!args.voids.empty()) checkOutput(args.voids, inputs);
-    if (!args.heatmap.empty()) {
-        checkHeatmapPath(args.heatmap);
-        checkOutput(args.heatmap, inputs);
-    }
-}
 
 // --- the sculpt ---------------------------------------------------------------------------------------------------
 
@@ -137,7 +64,7 @@ Facing chooseFacing(const BakeArgs& args, const SculptSides& sides, const Bounds
 
 /// Values as the file holds them, and what makes heights of them.
 HeightMap toStored(const BakedHeights& baked, const BakeArgs& args, double unit, const Warn& warn) {
-    const SampleType sample = chooseSample(args);
+    const SampleType sample = chooseHeightSample(args);
     const auto [low, high] = std::ranges::minmax_element(baked.heights);
     const double lowest = unit * double(*low), range = unit * double(*high) - lowest;
     const bool spans = sample == SampleType::uint16;
@@ -165,7 +92,7 @@ HeightMap toStored(const BakedHeights& baked, const BakeArgs& args, double unit,
 
 void writeHeights(const BakeArgs& args, const HeightMap& map) {
     const Image image{map.width, map.height, 1, map.texels};
-    const SampleType sample = chooseSample(args);
+    const SampleType sample = chooseHeightSample(args);
     if (lowerExtension(args.target) == ".exr")
         writeImage(args.target, image, {{"height", sample}});
     else
@@ -178,6 +105,29 @@ void writeVoids(const BakeArgs& args, const BakedHeights& baked) {
     for (std::size_t i = 0; i < baked.states.size(); ++i)
         mask.texels[i] = baked.states[i] == TexelState::missed ? 1.0f : 0.0f;
     writeImage(args.voids, mask, lowerExtension(args.voids) == ".exr" ? SampleType::half : SampleType::uint8);
+}
+
+/// Directions are written as codes (n + 1) / 2; lengths in cage units, positions in the world.
+void writeLayers(const BakeArgs& args, BakedHeights& baked, const Coordinates& coordinates) {
+    const std::vector<LayerFile> files = listLayers(args);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        const auto& [path, layer] = files[i];
+        Image& image = baked.layers[i];
+        const auto mapEach = [&](const auto& change) {
+            for (std::size_t k = 0; k < image.texels.size(); ++k)
+                image.texels[k] = float(change(double(image.texels[k]), int(k) % image.channels));
+        };
+        const double up = layer == SculptLayer::tangentNormal && args.normalY == NormalY::down ? -1 : 1;
+        if (layer == SculptLayer::tangentNormal || layer == SculptLayer::objectNormal)
+            mapEach([&](double n, int k) { return 0.5 * (k == 1 ? up : 1.0) * n + 0.5; });
+        if (layer == SculptLayer::position)
+            mapEach([&](double x, int k) { return coordinates.origin[k] + coordinates.unit * x; });
+        if (layer == SculptLayer::vector) mapEach([&](double x, int) { return coordinates.unit * x; });
+        if (layer == SculptLayer::curvature) mapEach([&](double x, int) { return x / coordinates.unit; });
+        const bool isExr = lowerExtension(path) == ".exr";
+        writeImage(path, image, isExr || hasUnit(layer) ? SampleType::real : SampleType::uint16);
+        image = {};
+    }
 }
 
 /// What the map cannot show, however it is baked.
@@ -220,8 +170,16 @@ Pair loadPair(const BakeArgs& args, const Warn& warn) {
 }
 
 /// Bakes the map and writes it, whatever is measured of it afterwards.
-HeightMap bakeMap(const BakeArgs& args, const Pair& pair, const BakeOptions& options, BakeReport& report) {
+HeightMap bakeMap(const BakeArgs& args, const Pair& pair, BakeOptions options, BakeReport& report) {
     const Warn warn = makeWarn(args.output.isQuiet);
+    SculptDetail detail;
+    for (const LayerFile& file : listLayers(args)) options.layers.layers.push_back(file.layer);
+    if (!options.layers.layers.empty()) {
+        detail = computeSculptDetail(pair.sculpt.triangles(), options.facing);
+        options.layers.detail = &detail;
+        options.layers.occlusionLines = std::max(1, args.occlusionLines / args.sampleCount);
+        options.layers.occlusionReach = pair.sculptBox.diagonal();
+    }
     const UvTexels texels(pair.object.surface, pair.reference,
                           {.width = args.size.x,
                            .height = args.size.y,
@@ -236,6 +194,7 @@ HeightMap bakeMap(const BakeArgs& args, const Pair& pair, const BakeOptions& opt
     HeightMap map = toStored(baked, args, pair.object.cage.coordinates.unit, warn);
     writeHeights(args, map);
     writeVoids(args, baked);
+    writeLayers(args, baked, pair.object.cage.coordinates);
     if (baked.voidCount > 0)
         warn(fmt::format("{}: {} of {} texels are voids: their lines miss {}; they are filled from around", args.target,
                          baked.voidCount, baked.texelCount, args.sculpt));
@@ -261,7 +220,7 @@ void drawHeat(const BakeArgs& args, BakeReport& report) {
 }
 
 int bake(const BakeArgs& args) {
-    checkArgs(args);
+    checkBakeArgs(args);
     const Warn warn = makeWarn(args.output.isQuiet);
     BakeReport report{.cage = args.object.cage,
                       .sculpt = args.sculpt,
@@ -288,6 +247,7 @@ int bake(const BakeArgs& args) {
                       {.reach = reach,
                        .facing = facing,
                        .wrap = args.object.height.wrap.value_or(Wrap::repeat),
+                       .dropsBehind = args.dropsBehind,
                        .progress = args.output.progress},
                       report);
         map.scale /= unit;
@@ -305,6 +265,7 @@ int bake(const BakeArgs& args) {
                                      {.reach = reach,
                                       .facing = facing,
                                       .triangleCount = std::clamp(2 * pair.triangleCount, kFewest, kMost),
+                                      .wantsDistances = !args.heatmap.empty(),
                                       .progress = args.output.progress});
     report.seams = reportSeams(pair.object.surface, pair.reference, map);
     report.certifySeconds = secondsNow() - certifyStart;
@@ -325,60 +286,7 @@ int bake(const BakeArgs& args) {
 
 Run addBake(CLI::App& app) {
     auto args = std::make_shared<BakeArgs>();
-    // What is baked from what.
-    app.add_option("cage", args->object.cage, "control cage: .obj .gltf .glb")->required()->option_text("CAGE");
-    app.add_option("sculpt", args->sculpt, "dense surface: .ply .stl .obj .gltf .glb")
-        ->required()
-        ->option_text("SCULPT");
-    app.add_option("-o,--output", args->target, "height map to write: .exr .tif .png")->option_text("HEIGHT");
-    addSurfaceOptions(app, args->object);
-
-    // The lines and the texels.
-    const char* group = "baking";
-    listIn(group, "W,H",
-           addVector<ivec2>(app, "--size", args->size, "texels of the map (default: 1024,1024)")
-               ->check(CLI::Range(1, 32768)));
-    listIn(group, "N",
-           app.add_option("--samples", args->sampleCount, "lines per texel, rounded up to a square number (default: 4)")
-               ->check(CLI::Range(1, 256)));
-    listIn(group, "D[,D]",
-           app.add_option_function<std::string>(
-               "--max-distance", [args](const std::string& words) { parseReach(words, *args); },
-               "how far lines reach along the normals and against them: cage units, or a percentage of the sculpt's "
-               "diagonal (default: 5%)"));
-    listIn(group, "N",
-           app.add_option("--dilate", args->margin,
-                          "texels beyond the borders of islands that show the surface across the seam (default: 2)")
-               ->check(numberIn(0, 64)));
-    listIn(group, "FORMAT",
-           addEnum(app, "--format", args->sample, kHeightFormats,
-                   "how heights are written (default: float, unorm16 in .png)"));
-    listIn(group, "PICTURE",
-           app.add_option("--voids", args->voids, "picture to write of the texels whose lines miss: .png .tif .exr"));
-
-    // The certificate.
-    app.add_flag("--check", args->checksOnly, "certify the map of --height instead of baking one")
-        ->group("certificate");
-    listIn("certificate", "D",
-           app.add_option_function<std::string>(
-                  "--tolerance", [args](const std::string& word) { args->tolerance = *parseDistance(word); },
-                  "largest RMS distance in either direction: cage units, or a percentage of the sculpt's diagonal "
-                  "(default: 0.1%)")
-               ->check(distanceFromZero()));
-    listIn("certificate", "PICTURE",
-           app.add_option("--heatmap", args->heatmap,
-                          "picture to write of where the surface is off (orange, from a tenth of the tolerance to all "
-                          "of it) and where lines miss (blue): .png or .exr"));
-    addDevice(app, args->device);
-    addOutput(app, args->output);
-    app.footer(
-        "Lines along the normals of the limit surface look for the sculpt on both sides; the nearest hit that\n"
-        "faces outwards is the height. Voids are filled, and counted. The certificate displaces the surface again\n"
-        "and measures it against the sculpt; exit code 6 where it is not within the tolerance, and the map is\n"
-        "written in either case.\n"
-        "examples:\n"
-        "  relief bake cage.obj sculpt.ply -o height.exr --size 2048,2048\n"
-        "  relief bake cage.obj sculpt.ply --check --height height.exr --json");
+    addBakeOptions(app, *args);
     return [args] { return bake(*args); };
 }
 

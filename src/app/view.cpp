@@ -35,7 +35,10 @@ std::vector<GivenOption> listGiven(const CLI::App& app) {
         const std::string name = option->get_positional() ? "" : "--" + option->get_lnames().front();
         if (std::ranges::find(kOwnOptions, name) != std::end(kOwnOptions)) continue;
         const bool isFlag = option->get_expected_max() == 0;
-        given.push_back({name, isFlag ? "" : fmt::format("{}", fmt::join(option->results(), ","))});
+        if (option->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll && option->get_delimiter() == 0)
+            for (const std::string& value : option->results()) given.push_back({name, value}); // as --light
+        else
+            given.push_back({name, isFlag ? "" : fmt::format("{}", fmt::join(option->results(), ","))});
     }
     return given;
 }
@@ -63,7 +66,6 @@ PictureArgs toPictureArgs(const Look& look, const PictureArgs& asked) {
 }
 
 void print(const ViewArgs& args, const ViewReport& report) {
-    for (const std::string& line : report.counts) std::cout << line << '\n';
     if (args.output.isJson)
         printJson({{"device", report.device},
                    {"frames", report.frameCount},
@@ -96,7 +98,8 @@ int view(const ViewArgs& args, const CLI::App& app) {
                         .quitAfter = args.quitAfter,
                         .screenshot = args.screenshot,
                         .record = args.record,
-                        .play = args.play};
+                        .play = args.play,
+                        .report = [](const std::string& line) { std::cout << line << std::endl; }};
     print(args, runWindow(desc, makeWarn(args.output.isQuiet)));
     return 0;
 }

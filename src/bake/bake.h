@@ -6,6 +6,7 @@
 
 #include "bake/certificate.h"
 #include "bake/heights.h"
+#include "bake/layers.h"
 #include "bake/sculpt.h"
 #include "bake/texels.h"
 #include "displacement/displacement.h"

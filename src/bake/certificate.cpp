@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <future>
+#include <limits>
 #include <thread>
 
 namespace relief {
@@ -48,7 +49,7 @@ public:
         DenseMesh& mesh = certificate_.displaced;
         mesh.positions.resize(faces_.size() * perFace_);
         mesh.normals.resize(mesh.positions.size());
-        mesh.heights.resize(mesh.positions.size());
+        if (options_.wantsDistances) mesh.heights.resize(mesh.positions.size());
         facts_.resize(mesh.positions.size());
         onEachFace([this](std::size_t i) { displaceFace(i); });
         makeTriangles();
@@ -99,7 +100,9 @@ private:
 
     void displaceVertex(int face, const dvec2& uv, std::size_t vertex) {
         const LimitFrame frame = surface_.limit(face, uv);
-        const double h = sampleHeight(map_, surface_.texture(face, uv).st).h;
+        const TexFrame tex = surface_.texture(face, uv);
+        const HeightSample sample = sampleHeight(map_, tex.st);
+        const double h = sample.h;
         VertexFacts& facts = facts_[vertex];
         const bool hasPlane = frame.hasTangentPlane();
         facts.normal = hasPlane ? glm::normalize(glm::cross(frame.pu, frame.pv)) : surface_.normal(face, uv);
@@ -110,8 +113,15 @@ private:
         facts.isBehind = hit && hit->isBehindBack;
         const dvec3 q = frame.p + h * facts.normal;
         certificate_.displaced.positions[vertex] = vec3(q);
-        certificate_.displaced.normals[vertex] = vec3(facts.normal);
-        const double distance = sculpt_.distance(q);
+        const dvec2 slope(sample.hs, sample.ht);
+        const dvec3 full = hasPlane ? computeDisplacedNormals(frame, h, slope * tex.jacobian).full : facts.normal;
+        certificate_.displaced.normals[vertex] = vec3(glm::length(full) > 0 ? glm::normalize(full) : facts.normal);
+        if (!options_.wantsDistances) return;
+        // The hit is a point of the sculpt, and near: beyond it there is nothing to look for.
+        const double limit = hit ? 2 * std::abs(h - hit->height) + 0.01 * (options_.reach.front + options_.reach.back)
+                                 : std::numeric_limits<double>::infinity();
+        double distance = sculpt_.distance(q, limit);
+        if (!std::isfinite(distance)) distance = sculpt_.distance(q);
         certificate_.displaced.heights[vertex] = float(hit ? distance : -distance);
     }
 

@@ -10,6 +10,7 @@ struct BakeCertificateOptions {
     LineReach reach;
     Facing facing = Facing::front;
     std::uint64_t triangleCount = 1'000'000; ///< about so many of the displaced surface
+    bool wantsDistances = false;             ///< of the vertices of BakeCertificate::displaced
     ShowProgress progress = ShowProgress::never;
 };
 
@@ -22,7 +23,7 @@ struct BakeCertificate {
     double overturnedShare = 0; ///< displaced triangles that face against the limit normal
     std::uint64_t overturnedCount = 0;
     int rate = 0;        ///< segments that each side of a face is cut into
-    DenseMesh displaced; ///< `heights`: distance to the sculpt per vertex, negative where its line misses it
+    DenseMesh displaced; ///< `heights`: distance to the sculpt per vertex, negative where its line misses
 };
 
 /// Displaces the surface by the map in double precision and measures it against the sculpt. The sides of all faces are

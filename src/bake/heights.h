@@ -1,6 +1,7 @@
 // Heights of a sculpt over a surface: one line per sample of a texel.
 #pragma once
 
+#include "bake/layers.h"
 #include "bake/texels.h"
 #include "distance/distance.h"
 
@@ -16,6 +17,8 @@ struct BakeOptions {
     LineReach reach;               ///< of lines along the normal and against it
     Facing facing = Facing::front; ///< of the triangles that count
     Wrap wrap = Wrap::repeat;      ///< what lies outside of the map
+    bool dropsBehind = false;      ///< hits behind the back of another triangle are none
+    LayerOptions layers;           ///< what is baked besides
     ShowProgress progress = ShowProgress::never;
 };
 
@@ -24,6 +27,7 @@ struct BakedHeights {
     int width = 0, height = 0;
     std::vector<float> heights; ///< in the unit of the surface, rows from the top
     std::vector<TexelState> states;
+    std::vector<Image> layers; ///< one per BakeOptions::layers
     std::uint64_t texelCount = 0, voidCount = 0;
     std::uint64_t sampleCount = 0, missCount = 0;
     std::uint64_t behindCount = 0; ///< samples whose line passes the back of another triangle first
@@ -34,6 +38,7 @@ struct BakedHeights {
 /// 4.4). On all cores; the result does not depend on how many there are.
 /// Texels without a hit are filled: voids on the surface by a membrane between the texels around them (a discrete
 /// Laplace equation), all others by means of the heights around them. A map without any hit stays 0.
+/// Layers are means over the samples inside of islands; all texels without any are filled from around.
 BakedHeights bakeHeights(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const TexelSource& texels,
                          const BakeOptions& options);
 

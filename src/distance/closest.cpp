@@ -174,6 +174,19 @@ std::optional<LineHit> ClosestPoints::nearestOnLine(const dvec3& p, const dvec3&
     return query.best;
 }
 
+bool ClosestPoints::isBlocked(const dvec3& p, const dvec3& direction, double reach) const {
+    constexpr double kApart = 16; // from the surface that the line begins on, in what floats may be off
+    RTCRay ray{};
+    ray.org_x = float(p.x), ray.org_y = float(p.y), ray.org_z = float(p.z);
+    ray.dir_x = float(direction.x), ray.dir_y = float(direction.y), ray.dir_z = float(direction.z);
+    ray.tnear = float(kApart * overlap_), ray.tfar = float(reach);
+    ray.mask = ~0u;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene_.get(), &context, &ray);
+    return ray.tfar < 0;
+}
+
 double ClosestPoints::distance(const dvec3& p, double limit) const {
     RTCPointQuery at{};
     at.x = float(p.x), at.y = float(p.y), at.z = float(p.z);

@@ -23,6 +23,8 @@ public:
     /// As MeasuredSurface::nearestOnLine.
     [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
                                                        Facing facing) const;
+    /// As MeasuredSurface::isBlocked.
+    [[nodiscard]] bool isBlocked(const dvec3& p, const dvec3& direction, double reach) const;
     [[nodiscard]] const std::vector<vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }
 

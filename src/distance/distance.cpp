@@ -182,12 +182,17 @@ MeasuredSurface::~MeasuredSurface() = default;
 MeasuredSurface::MeasuredSurface(MeasuredSurface&&) noexcept = default;
 MeasuredSurface& MeasuredSurface::operator=(MeasuredSurface&&) noexcept = default;
 
-double MeasuredSurface::distance(const dvec3& p) const {
-    return parts_->points.distance(p, std::numeric_limits<double>::infinity());
-}
+double MeasuredSurface::distance(const dvec3& p, double limit) const { return parts_->points.distance(p, limit); }
 std::optional<LineHit> MeasuredSurface::nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
                                                       Facing facing) const {
     return parts_->points.nearestOnLine(p, direction, reach, facing);
+}
+bool MeasuredSurface::isBlocked(const dvec3& p, const dvec3& direction, double reach) const {
+    return parts_->points.isBlocked(p, direction, reach);
+}
+TriangleView MeasuredSurface::triangles() const {
+    const std::span<const vec3> all = parts_->points.positions(); // one more than there are
+    return {all.first(all.size() - 1), parts_->points.indices()};
 }
 std::size_t MeasuredSurface::sampleCount() const { return parts_->samples.points.size(); }
 double MeasuredSurface::coverage() const { return parts_->samples.coverage; }

@@ -1,6 +1,7 @@
 // How far two surfaces are apart, closest points, and where lines meet a surface (Embree).
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -54,11 +55,16 @@ public:
 
     /// Distance from `p` to the nearest point of the surface, in units of the positions. It is off by up to 2^-24 of
     /// the largest coordinate, because closest points are searched with floats.
-    [[nodiscard]] double distance(const dvec3& p) const;
+    /// `limit`: a distance within which there is a point; the closer the quicker.
+    [[nodiscard]] double distance(const dvec3& p, double limit = std::numeric_limits<double>::infinity()) const;
     /// The hit nearest to `p` on the line through it along a unit `direction`; empty where there is none within reach.
     /// The triangle is found with floats, its height is computed in double precision. Several threads may ask.
     [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
                                                        Facing facing = Facing::front) const;
+    /// True where a line from a point of the surface, or near it, meets a triangle within `reach`.
+    [[nodiscard]] bool isBlocked(const dvec3& p, const dvec3& direction, double reach) const;
+    /// The surface's own copy of its triangles.
+    [[nodiscard]] TriangleView triangles() const;
     [[nodiscard]] std::size_t sampleCount() const;
     /// Largest distance from a point of the surface to the sample that represents it.
     [[nodiscard]] double coverage() const;

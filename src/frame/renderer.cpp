@@ -41,6 +41,7 @@ void Renderer::resize(const RendererDesc& desc) {
     parts.images.reset();
     parts.buffers.reset();
     parts.layerTargets.reset();
+    parts.occlusion = {};
     parts.picture = {}; // ends before its successor is made, which takes its memory
     parts.picture = makePictureBuffer(parts.device, desc);
 }

@@ -56,7 +56,7 @@ void Viewer::takeEvents(double now) {
         const Event event = live.front();
         if (event.kind == EventKind::press && hasMoved) return;
         live.pop_front();
-        if (record_.is_open()) record_ << toLine(event) << '\n';
+        record(event);
         apply(event);
         uiFrames_ = kFramesAfterEvent;
         hasMoved = hasMoved || event.kind == EventKind::move;
@@ -67,7 +67,8 @@ void Viewer::takeEvents(double now) {
 /// Applies the next played event if it is its turn; returns whether it was.
 bool Viewer::takePlayed(double now) {
     const Event event = played_.front();
-    const bool isResting = pacing_.isAtRest() && uiFrames_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
+    const bool isResting =
+        pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
     switch (event.kind) {
     case EventKind::rest:
         if (isResting) played_.pop_front();
@@ -87,8 +88,19 @@ bool Viewer::takePlayed(double now) {
     }
     if (framesToPlay_ > 0) return false;
     played_.pop_front();
+    record(event);
     apply(event);
     return event.kind != EventKind::report;
+}
+
+/// Writes an event, and before it that the picture was at rest, so that the session plays the same on any device.
+void Viewer::record(const Event& event) {
+    if (!record_.is_open()) return;
+    if (pacing_.isAtRest() && report_.pictureCount != recordedPictures_) {
+        record_ << toLine({.kind = EventKind::rest}) << '\n';
+        recordedPictures_ = report_.pictureCount;
+    }
+    record_ << toLine(event) << '\n' << std::flush;
 }
 
 void Viewer::apply(const Event& event) {
@@ -305,7 +317,7 @@ void Viewer::report() {
                                 {"triangles", stats_.triangleCount},
                                 {"error", state_.error},
                                 {"command", command()}};
-    report_.counts.push_back(counts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    desc_.report(counts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 // --- panels --------------------------------------------------------------------------------------------------------
@@ -343,14 +355,7 @@ void Viewer::seek(int frame) {
 
 void Viewer::step(int frames) { seek(state_.look.frame + frames); }
 
-Look Viewer::shownLook() const {
-    Look look = state_.look;
-    const Look& shown = scene_->look();
-    look.scene.object = shown.scene.object;
-    look.scene.object.material.roughness = state_.look.scene.object.material.roughness;
-    look.scene.lighting.environment = shown.scene.lighting.environment;
-    return look;
-}
+Look Viewer::shownLook() const { return withFilesOf(scene_->look(), state_.look); }
 
 std::vector<std::string> Viewer::command() const {
     return toCommandWords(scene_->isMoving() ? "animate" : "render", desc_.given, desc_.look, shownLook());

@@ -42,6 +42,15 @@ std::string textOf(const std::optional<int>& number) { return number ? fmt::form
 std::string textOf(const std::optional<dvec3>& p) { return p ? fmt::format("{},{},{}", p->x, p->y, p->z) : ""; }
 std::string textOf(const std::optional<dvec2>& p) { return p ? fmt::format("{},{}", p->x, p->y) : ""; }
 
+/// The key light as --light takes it; empty for the default one.
+std::string textOf(const LightingDesc& lighting) {
+    if (!lighting.key) return "";
+    std::string text = textOf(lighting.key);
+    if (lighting.keyStrength) text += fmt::format(",{}", *lighting.keyStrength);
+    if (const auto& color = lighting.keyColor) text += fmt::format(",{},{},{}", color->x, color->y, color->z);
+    return text;
+}
+
 void setObject(Options& options, const ObjectDesc& before, const ObjectDesc& now) {
     options.replace("", before.cage, now.cage);
     options.replace("--height", before.height.path, now.height.path);
@@ -87,7 +96,11 @@ void setShading(Options& options, const Look& before, const Look& now) {
     options.replace("--raster", wordOf(kRasters, before.raster), wordOf(kRasters, now.raster));
     options.replace("--filter", wordOf(kFilters, before.filter), wordOf(kFilters, now.filter));
     const LightingDesc &old = before.scene.lighting, &lighting = now.scene.lighting;
-    options.replace("--light", textOf(old.key), textOf(lighting.key));
+    options.replace("--light", textOf(old), textOf(lighting));
+    options.replace("--occlusion", textOf(std::optional(old.occlusionRadius)),
+                    textOf(std::optional(lighting.occlusionRadius)));
+    options.replace("--shading", wordOf(kShadings, before.scene.shading.shading),
+                    wordOf(kShadings, now.scene.shading.shading));
     options.replace("--environment", old.environment, lighting.environment);
     options.replace("--exposure", textOf(std::optional(before.finish.exposure)),
                     textOf(std::optional(now.finish.exposure)));

@@ -120,7 +120,10 @@ void makeLight(ViewState& state, PanelWishes& wishes) {
     if (turns) scene.lighting.key = key;
     changes |= ImGui::Checkbox("shadows", &scene.lighting.castsShadows);
     auto& material = scene.object.material;
+    changes |= choose("shading", scene.shading.shading, kShadings);
     changes |= ImGui::SliderFloat("roughness", &material.roughness, 0.05f, 1);
+    changes |= slide("occlusion", scene.lighting.occlusionRadius, 0, 0.5);
+    explain("how far away the surface hides the environment from itself, as a share of the object's size");
     changes |= choose("filter", state.look.filter, kFilters);
     wishes.changesPicture |= changes || turns;
 }
@@ -285,8 +288,18 @@ void drawDivider(const ViewState& state, const ivec2& size) {
     const auto x = float(state.divider * size.x), middle = 0.5f * float(size.y);
     list.AddLine({x, 0}, {x, float(size.y)}, IM_COL32(255, 255, 255, 200), 2);
     list.AddCircleFilled({x, middle}, 7, IM_COL32(255, 255, 255, 230));
-    const std::string right = state.showsDifference ? "difference" : wordOf(kSplits, state.split);
-    list.AddText({x + 10, float(size.y) - 28}, IM_COL32(30, 30, 30, 255), right.c_str());
+    const auto label = [&](const std::string& text, float from) {
+        const ImVec2 extent = ImGui::CalcTextSize(text.c_str());
+        const ImVec2 at(from < 0 ? x - extent.x - 22 : x + 22, float(size.y) - 92);
+        list.AddRectFilled({at.x - 8, at.y - 5}, {at.x + extent.x + 8, at.y + extent.y + 5}, IM_COL32(28, 31, 36, 210),
+                           5);
+        list.AddText(at, IM_COL32(240, 240, 240, 255), text.c_str());
+    };
+    label(state.split == SplitKind::smooth || state.split == SplitKind::bump
+              ? wordOf(kDetails, state.look.scene.object.height.detail)
+              : "as set",
+          -1);
+    label(state.showsDifference ? "difference" : wordOf(kSplits, state.split), 1);
 }
 
 } // namespace relief

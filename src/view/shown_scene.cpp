@@ -44,8 +44,20 @@ Prepared prepareScene(const ViewDesc& desc, const Look& look) {
     prepared.loaded = load(look.scene, isMoving ? CageState::atRest : CageState::posed, warn);
     const LoadedObject& object = prepared.loaded.object;
     if (isMoving) prepared.frames = desc.listFrames(object.animation.get());
+    std::ranges::sort(prepared.frames); // lists may count down
     if (!object.function) prepared.points = computePoints(prepared);
     return prepared;
+}
+
+Look withFilesOf(const Look& loaded, const Look& look) {
+    Look own = look;
+    own.scene.object = loaded.scene.object;
+    own.scene.object.material.roughness = look.scene.object.material.roughness;
+    own.scene.object.material.metallic = look.scene.object.material.metallic;
+    own.scene.lighting.environment = loaded.scene.lighting.environment;
+    own.scene.lighting.shape = loaded.scene.lighting.shape;
+    own.scene.shading.matcap = loaded.scene.shading.matcap;
+    return own;
 }
 
 std::vector<CageEdge> listCageEdges(const Cage& cage) {
@@ -84,6 +96,7 @@ ShownScene::ShownScene(Device& device, const ViewDesc& desc, Prepared prepared)
     }
     model_ = std::make_unique<Model>(makeModel(device, object));
     environment_ = makeEnvironment(device, loaded_);
+    matcap_ = makeMatcap(device, loaded_);
     if (auto* surface = std::get_if<SurfaceModel>(model_.get())) {
         if (isMoving() && object.animation)
             poser_ = std::make_unique<Poser>(device, *surface,
@@ -107,6 +120,7 @@ ShownScene::ShownScene(Device& device, const ViewDesc& desc, Prepared prepared)
     object.albedo.reset();
     object.normalMap.reset();
     loaded_.environment.reset();
+    loaded_.matcap.reset();
     device.submitUploads();
     malloc_trim(0);
 }
@@ -153,13 +167,11 @@ void ShownScene::poseAt(int frame) {
 Picture ShownScene::draw(Renderer& renderer, const Look& look, const ivec2& size,
                          const std::optional<Camera>& rateCamera) {
     poseAt(look.frame);
-    Look own = look;
-    own.scene.object = look_.scene.object;
-    own.scene.object.material.roughness = look.scene.object.material.roughness;
-    own.scene.lighting.environment = look_.scene.lighting.environment;
+    const Look own = withFilesOf(look_, look);
     RenderOptions options = desc_.makeOptions(own, loaded_.object, device_);
     options.lighting =
         makeLighting(own.scene.lighting, own.scene.camera.azimuth, environment_ ? &*environment_ : nullptr);
+    options.matcap = matcap_ ? &*matcap_ : nullptr;
     options.camera = makeCamera(own, size);
     options.rateCamera = rateCamera;
     options.bounds = boundsNow();

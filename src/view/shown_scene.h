@@ -18,6 +18,9 @@ struct Prepared {
 /// Reads the files of `look`. Throws as load() does.
 Prepared prepareScene(const ViewDesc& desc, const Look& look);
 
+/// `look` with what files and surfaces are made of as in `loaded`: what can be drawn before they are read anew.
+Look withFilesOf(const Look& loaded, const Look& look);
+
 /// An edge of the cage for the overlay.
 struct CageEdge {
     std::uint32_t a = 0, b = 0; ///< positions
@@ -68,6 +71,7 @@ private:
     std::optional<MovingPolygons> polygons_;
     Bounds polygonBounds_;
     std::optional<GpuEnvironment> environment_;
+    std::optional<GpuMatcap> matcap_;
     std::unique_ptr<Model> model_;
     std::unique_ptr<Poser> poser_;
     std::unique_ptr<MeshPoser> meshPoser_;

@@ -54,6 +54,7 @@ struct ViewDesc {
     std::string screenshot;         ///< file that the first picture at rest is written to, or empty
     std::string record;             ///< file that events are written to, or empty
     std::string play;               ///< file of events that are played before those of the user, or empty
+    std::function<void(const std::string&)> report; ///< takes a line of JSON per `report` of a played file
 };
 
 /// What happened until the window was closed.
@@ -63,8 +64,7 @@ struct ViewReport {
     std::uint64_t pictureCount = 0; ///< drawn of the surface
     std::uint64_t coarseCount = 0;  ///< of them with fewer pixels, while something moved
     std::uint64_t reloadCount = 0;
-    std::uint64_t deviceBytes = 0;   ///< at the end
-    std::vector<std::string> counts; ///< a line of JSON per `report` of a played file
+    std::uint64_t deviceBytes = 0; ///< at the end
 };
 
 /// Opens the window and returns when it is closed. Warnings while it is open are shown in it.

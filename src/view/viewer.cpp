@@ -124,25 +124,29 @@ void Viewer::useScene(Prepared prepared) {
 }
 
 void Viewer::takeLoaded() {
-    if (auto result = loader_.take()) {
+    // What the device says of a height function is an error of its file, too.
+    const auto use = [&](Loader::Result& result, const auto& take) {
         uiFrames_ = kFramesAfterEvent;
-        if (result->prepared) {
-            try { // what the device says of a height function is an error of its file, too
-                useScene(std::move(*result->prepared));
-                state_.error.clear();
-                ++report_.reloadCount;
-                changePicture();
+        if (result.prepared) {
+            try {
+                take(std::move(*result.prepared));
             } catch (const Error& error) {
-                result->error = error.what();
+                result.error = error.what();
             }
         }
-        if (!result->error.empty()) state_.error = onOneLine(result->error);
+        state_.error = onOneLine(result.error);
+        if (result.error.empty()) changePicture();
+        return result.error.empty();
+    };
+    if (auto result = loader_.take()) {
+        const auto take = [&](Prepared prepared) { useScene(std::move(prepared)); };
+        if (use(*result, take)) ++report_.reloadCount;
     }
     if (auto result = otherLoader_.take()) {
-        uiFrames_ = kFramesAfterEvent;
-        if (result->prepared) other_ = std::make_unique<ShownScene>(*device_, desc_, std::move(*result->prepared));
-        if (!result->error.empty()) state_.error = onOneLine(result->error), state_.split = SplitKind::off;
-        changePicture();
+        const auto take = [&](Prepared prepared) {
+            other_ = std::make_unique<ShownScene>(*device_, desc_, std::move(prepared));
+        };
+        if (!use(*result, take)) state_.split = SplitKind::off, changePicture();
     }
 }
 

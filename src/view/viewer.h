@@ -42,6 +42,7 @@ private:
     // What users do: actions.cpp.
     void takeEvents(double now);
     bool takePlayed(double now);
+    void record(const Event& event);
     void apply(const Event& event);
     void press(const Event& event);
     void move(const dvec2& to);
@@ -91,6 +92,7 @@ private:
 
     // Events.
     std::ofstream record_;
+    std::uint64_t recordedPictures_ = 0; ///< drawn when it was last recorded that the picture was at rest
     std::deque<Event> played_;
     double playedUntil_ = 0; ///< of a wait
     int framesToPlay_ = 0;   ///< of `frames`

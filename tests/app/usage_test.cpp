@@ -4,7 +4,7 @@
 namespace relief::test {
 namespace {
 
-const Words kVerbs = {"render", "animate", "export", "sample", "check", "normal-map", "height-map", "info"};
+const Words kVerbs = {"render", "animate", "view", "export", "sample", "check", "normal-map", "height-map", "info"};
 
 TEST(Help, ofEveryVerbShowsExamples) {
     for (const std::string& verb : kVerbs) {

@@ -28,7 +28,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"glfw3", "libglfw3-dev"},
     {"imgui.h", "libimgui-dev"},
     {"imgui", "libimgui-dev"},
-    {"stb", "libimgui-dev"}, // through libstb-dev, which it depends on
+    {"stb", "libimgui-dev"},        // through libstb-dev, which it depends on
     {"spirv-opt", "glslang-tools"}, // through spirv-tools, which it depends on
     {"glm/glm.hpp", "libglm-dev"},
     {"tiny_gltf.h", "libtinygltf-dev"},
@@ -44,7 +44,9 @@ const std::map<std::string, std::string> kPackageOf = {
 };
 
 /// What no find_... names: tools, and what is loaded when relief runs.
-const Names kOthers = {"cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "ffmpeg", "fonts-dejavu-core", "xvfb", "xauth"};
+const Names kOthers = {
+    "cmake", "ninja-build", "mesa-vulkan-drivers", "vulkan-validationlayers", "ffmpeg", "fonts-dejavu-core",
+    "xvfb",  "xauth"};
 
 Names packages() {
     Names names;

@@ -15,7 +15,7 @@ TEST(BakeCertificate, measuresBothWays) {
     const MeasuredSurface sculpt = measured(flatSculpt(0.25));
     const HeightMap exact = makeHeightMap(1, 1, {0.25f}, 0, 1, Wrap::clamp);
     const HeightMap off = makeHeightMap(1, 1, {0.2f}, 0, 1, Wrap::clamp);
-    const BakeCertificateOptions options{.reach = {1, 1}, .triangleCount = 20'000};
+    const BakeCertificateOptions options{.reach = {1, 1}, .triangleCount = 20'000, .wantsDistances = true};
     const BakeCertificate good = certifyBake(baking.reference, exact, sculpt, options);
     EXPECT_LT(good.distance.hausdorff(), 1e-6);
     EXPECT_EQ(good.missedShare, 0);

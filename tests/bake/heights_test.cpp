@@ -97,6 +97,10 @@ TEST(BakedHeights, areOfTheNearestSheetThatFacesOutwards) {
     const BakedHeights baked = Baking(squareGrid(), kFlat).bake(measured(sheets), {1, 1});
     forEachHeight(baked, [](dvec2, float h, TexelState) { EXPECT_NEAR(h, 0.2, 1e-6); });
     EXPECT_EQ(baked.behindCount, std::uint64_t(kSide * kSide / 2));
+    const Baking strict(squareGrid(), kFlat);
+    const BakedHeights dropped = bakeHeights(strict.reference, measured(sheets), strict.texels,
+                                             {.reach = {1, 1}, .wrap = Wrap::clamp, .dropsBehind = true});
+    EXPECT_EQ(dropped.voidCount, std::uint64_t(kSide * kSide / 2));
     // Nearer on the other side.
     append(sheets, flat(-0.15));
     const BakedHeights below = Baking(squareGrid(), kFlat).bake(measured(sheets), {1, 1});

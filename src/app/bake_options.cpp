@@ -1,0 +1,186 @@
+#include "app/bake_options.h"
+
+#include <cmath>
+
+#include "app/heatmap.h"
+#include "app/object_options.h"
+#include "app/options.h"
+#include "app/picture_options.h"
+#include "app/units.h"
+
+namespace relief::app {
+namespace {
+
+constexpr Word<SampleType> kHeightFormats[] = {
+    {"float", SampleType::real, "32-bit floats: .exr .tif"},
+    {"half", SampleType::half, "16-bit floats: .exr"},
+    {"unorm16", SampleType::uint16,
+     "16-bit integers over the range of the heights, or by --mid and --scale: .png .tif"},
+};
+
+/// "5%", or "0.1,0.2" for both directions.
+void parseReach(const std::string& words, BakeArgs& args) {
+    const std::size_t comma = words.find(',');
+    const std::optional<Distance> front = parseDistance(words.substr(0, comma));
+    const std::optional<Distance> back = comma == std::string::npos ? front : parseDistance(words.substr(comma + 1));
+    for (const std::optional<Distance>& distance : {front, back})
+        if (!distance || !(distance->value >= 0) || !std::isfinite(distance->value))
+            throw CLI::ValidationError("--max-distance", words + " is no distance, or two with a comma between them");
+    args.front = *front, args.back = *back;
+}
+
+void checkLayer(const LayerFile& file, const std::vector<std::string>& inputs) {
+    const std::string extension = lowerExtension(file.path);
+    const bool isFloat = extension == ".exr" || extension == ".tif" || extension == ".tiff";
+    if (!isFloat && (extension != ".png" || hasUnit(file.layer)))
+        fail(Failure::usage, "{}: {}", file.path,
+             hasUnit(file.layer) ? "positions, vectors and curvatures are written as .exr or .tif"
+                                 : "normals and occlusion are written as .png, .tif or .exr");
+    checkOutput(file.path, inputs);
+}
+
+/// The lines and the texels.
+void addLines(CLI::App& app, BakeArgs& args) {
+    const char* group = "baking";
+    listIn(group, "W,H",
+           addVector<ivec2>(app, "--size", args.size, "texels of the map (default: 1024,1024)")
+               ->check(CLI::Range(1, 32768)));
+    listIn(group, "N",
+           app.add_option("--samples", args.sampleCount, "lines per texel, rounded up to a square number (default: 4)")
+               ->check(CLI::Range(1, 256)));
+    listIn(group, "D[,D]",
+           app.add_option_function<std::string>(
+               "--max-distance", [&args](const std::string& words) { parseReach(words, args); },
+               "how far lines reach along the normals and against them: cage units, or a percentage of the sculpt's "
+               "diagonal (default: 5%)"));
+    app.add_flag("--drop-behind", args.dropsBehind,
+                 "a hit behind the back of another sheet is none: its texel is a void")
+        ->group(group);
+    listIn(group, "N",
+           app.add_option("--dilate", args.margin,
+                          "texels beyond the borders of islands that show the surface across the seam (default: 2)")
+               ->check(numberIn(0, 64)));
+    listIn(group, "FORMAT",
+           addEnum(app, "--format", args.sample, kHeightFormats,
+                   "how heights are written (default: float, unorm16 in .png)"));
+    listIn(group, "PICTURE",
+           app.add_option("--voids", args.voids, "picture to write of the texels whose lines miss: .png .tif .exr"));
+}
+
+/// Other maps of the same lines.
+void addOtherMaps(CLI::App& app, BakeArgs& args) {
+    const char* others = "other maps";
+    listIn(others, "PICTURE", app.add_option("--normal", args.normals, "normals of the sculpt: .png .tif .exr"));
+    listIn(others, "SPACE",
+           addEnum(app, "--normal-space", args.normalSpace, kNormalSpaces, "what normals are components along"));
+    listIn(others, "Y",
+           addEnum(app, "--normal-y", args.normalY, kNormalYs, "which way the second channel of --normal points"));
+    listIn(others, "PICTURE",
+           app.add_option("--occlusion", args.occlusion,
+                          "share of the sky that the sculpt sees, white where it is open: .png .tif .exr"));
+    listIn(others, "N",
+           app.add_option("--occlusion-lines", args.occlusionLines, "lines per texel for --occlusion (default: 64)")
+               ->check(CLI::Range(1, 65536)));
+    listIn(others, "PICTURE",
+           app.add_option("--curvature", args.curvature,
+                          "mean curvature of the sculpt, 1 / cage unit, above 0 on ridges: .exr .tif"));
+    listIn(others, "PICTURE", app.add_option("--position", args.position, "points of the sculpt: .exr .tif"));
+    listIn(others, "PICTURE",
+           app.add_option("--vector", args.vector,
+                          "displacement along x, y and z, from the limit surface to the sculpt: .exr .tif"));
+}
+
+/// What is measured afterwards.
+void addCertificate(CLI::App& app, BakeArgs& args) {
+    app.add_flag("--check", args.checksOnly, "certify the map of --height instead of baking one")->group("certificate");
+    listIn("certificate", "D",
+           app.add_option_function<std::string>(
+                  "--tolerance", [&args](const std::string& word) { args.tolerance = *parseDistance(word); },
+                  "largest RMS distance in either direction: cage units, or a percentage of the sculpt's diagonal "
+                  "(default: 0.1%)")
+               ->check(distanceFromZero()));
+    listIn("certificate", "PICTURE",
+           app.add_option("--heatmap", args.heatmap,
+                          "picture to write of where the surface is off (orange, from a tenth of the tolerance to all "
+                          "of it) and where lines miss (blue): .png or .exr"));
+}
+
+} // namespace
+
+std::vector<LayerFile> listLayers(const BakeArgs& args) {
+    const SculptLayer normal =
+        args.normalSpace == NormalSpace::tangent ? SculptLayer::tangentNormal : SculptLayer::objectNormal;
+    std::vector<LayerFile> files;
+    for (const LayerFile& file :
+         {LayerFile{args.normals, normal}, LayerFile{args.position, SculptLayer::position},
+          LayerFile{args.vector, SculptLayer::vector}, LayerFile{args.occlusion, SculptLayer::occlusion},
+          LayerFile{args.curvature, SculptLayer::curvature}})
+        if (!file.path.empty()) files.push_back(file);
+    return files;
+}
+
+bool hasUnit(SculptLayer layer) {
+    return layer == SculptLayer::position || layer == SculptLayer::vector || layer == SculptLayer::curvature;
+}
+
+SampleType chooseHeightSample(const BakeArgs& args) {
+    const std::string extension = lowerExtension(args.target);
+    const bool isFloat = extension == ".exr";
+    if (extension != ".exr" && extension != ".png" && extension != ".tif" && extension != ".tiff")
+        fail(Failure::usage, "{}: heights are written as .exr, .tif or .png", args.target);
+    const SampleType sample = args.sample.value_or(extension == ".png" ? SampleType::uint16 : SampleType::real);
+    const bool fits = isFloat               ? sample != SampleType::uint16
+                      : extension == ".png" ? sample == SampleType::uint16
+                                            : sample != SampleType::half;
+    if (!fits)
+        fail(Failure::usage, "{}: {} holds no {} heights", args.target, extension, wordOf(kHeightFormats, sample));
+    return sample;
+}
+
+void checkBakeArgs(const BakeArgs& args) {
+    const std::vector<std::string> inputs{args.object.cage, args.sculpt, args.object.height.path};
+    if (args.checksOnly) {
+        if (args.object.height.path.empty()) fail(Failure::usage, "--check needs the map: name it with --height");
+        if (!args.target.empty() || !args.voids.empty() || !listLayers(args).empty())
+            fail(Failure::usage, "--check writes no map; -o, --voids and other maps are for baking");
+    } else {
+        if (args.target.empty())
+            fail(Failure::usage, "name the map to write with -o, or the map to check with --check --height");
+        if (!args.object.height.path.empty())
+            fail(Failure::usage, "--height is for --check; the map to write is named with -o");
+        chooseHeightSample(args);
+        checkOutput(args.target, inputs);
+    }
+    if (!args.voids.empty()) checkOutput(args.voids, inputs);
+    for (const LayerFile& file : listLayers(args)) checkLayer(file, inputs);
+    if (!args.heatmap.empty()) {
+        checkHeatmapPath(args.heatmap);
+        checkOutput(args.heatmap, inputs);
+    }
+}
+
+void addBakeOptions(CLI::App& app, BakeArgs& args) {
+    // What is baked from what.
+    app.add_option("cage", args.object.cage, "control cage: .obj .gltf .glb")->required()->option_text("CAGE");
+    app.add_option("sculpt", args.sculpt, "dense surface: .ply .stl .obj .gltf .glb")
+        ->required()
+        ->option_text("SCULPT");
+    app.add_option("-o,--output", args.target, "height map to write: .exr .tif .png")->option_text("HEIGHT");
+    addSurfaceOptions(app, args.object);
+
+    addLines(app, args);
+    addOtherMaps(app, args);
+    addCertificate(app, args);
+    addDevice(app, args.device);
+    addOutput(app, args.output);
+    app.footer(
+        "Lines along the normals of the limit surface look for the sculpt on both sides; the nearest hit that\n"
+        "faces outwards is the height. Voids are filled, and counted. The certificate displaces the surface again\n"
+        "and measures it against the sculpt; exit code 6 where it is not within the tolerance, and the map is\n"
+        "written in either case.\n"
+        "examples:\n"
+        "  relief bake cage.obj sculpt.ply -o height.exr --size 2048,2048\n"
+        "  relief bake cage.obj sculpt.ply --check --height height.exr --json");
+}
+
+} // namespace relief::app

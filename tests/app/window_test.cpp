@@ -1,0 +1,293 @@
+// The window on a display without a screen (Xvfb): sessions are played, and what they leave is compared with the other
+// verbs. Validation is on, so that any message of Vulkan's layer is a failure.
+#include "program.h"
+
+namespace relief::test {
+namespace {
+
+/// A display of 1280 x 800 pixels, whose content lies in a file.
+class Display {
+public:
+    Display() {
+        int ends[2] = {-1, -1};
+        if (access("/usr/bin/Xvfb", X_OK) != 0 || pipe(ends) != 0) return;
+        process_ = fork();
+        if (process_ == 0) {
+            dup2(ends[1], 7);
+            const int none = open("/dev/null", O_WRONLY);
+            dup2(none, STDERR_FILENO);
+            execl("/usr/bin/Xvfb", "Xvfb", "-displayfd", "7", "-screen", "0", "1280x800x24", "-fbdir",
+                  folder_.path.c_str(), "-nolisten", "tcp", nullptr);
+            _exit(127);
+        }
+        close(ends[1]);
+        std::string name = ":";
+        for (char c = 0; read(ends[0], &c, 1) == 1 && c != '\n';) name += c;
+        close(ends[0]);
+        if (name.size() > 1) setenv("DISPLAY", name.c_str(), 1);
+        isOpen_ = name.size() > 1;
+    }
+    ~Display() {
+        if (process_ <= 0) return;
+        kill(process_, SIGTERM);
+        waitpid(process_, nullptr, 0);
+    }
+    Display(const Display&) = delete;
+    Display& operator=(const Display&) = delete;
+
+    [[nodiscard]] bool isOpen() const { return isOpen_; }
+
+    /// Red, green and blue of the upper left part of the screen (X window dump: 32 bits per pixel, blue first).
+    [[nodiscard]] std::vector<std::uint8_t> pixels(std::size_t width, std::size_t height) const {
+        const std::string dump = readFile(folder_ / "Xvfb_screen0");
+        const auto word = [&](std::size_t i) {
+            std::uint32_t value = 0;
+            for (std::size_t k = 0; k < 4; ++k) value = value << 8 | std::uint8_t(dump[4 * i + k]);
+            return std::size_t(value);
+        };
+        const std::size_t start = word(0) + 12 * word(19), row = word(12);
+        std::vector<std::uint8_t> rgb;
+        for (std::size_t y = 0; y < height; ++y)
+            for (std::size_t x = 0; x < width; ++x)
+                for (const std::size_t c : {2, 1, 0}) rgb.push_back(std::uint8_t(dump[start + y * row + 4 * x + c]));
+        return rgb;
+    }
+
+private:
+    TemporaryFolder folder_;
+    pid_t process_ = -1;
+    bool isOpen_ = false;
+};
+
+#define RELIEF_DISPLAY                                                                                                 \
+    const Display display;                                                                                             \
+    if (!display.isOpen()) GTEST_SKIP() << "no Xvfb here (Debian: apt-get install xvfb)"
+
+/// A map of 32 x 32 texels with waves of that many periods.
+void writeWaves(const std::string& path, double periods) {
+    Image map{32, 32, 1, {}};
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) map.texels.push_back(float(0.5 + 0.4 * std::sin(0.196 * periods * (x + y))));
+    writeImage(path, map, SampleType::uint16);
+}
+
+std::string writeSession(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
+    writeFile(folder / name, lines);
+    return folder / name;
+}
+
+/// One report per `report` of the session.
+std::vector<nlohmann::json> reportsOf(const Outcome& outcome) {
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::vector<nlohmann::json> reports;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);) reports.push_back(nlohmann::json::parse(line));
+    return reports;
+}
+
+/// Runs the command line that the window gives, and compares the picture with the window's own.
+void expectSame(const nlohmann::json& report, const std::string& screenshot, const TemporaryFolder& folder) {
+    Words words = report["command"];
+    words.erase(words.begin());
+    const bool isFrame = words.front() == "animate";
+    for (const char* word : {"--quiet", "-o"}) words.emplace_back(word);
+    words.push_back(folder / (isFrame ? "again.{frame:4}.png" : "again.png"));
+    expectDone(relief(words));
+    const std::string path =
+        folder / (isFrame ? fmt::format("again.{:04}.png", report["frame"].get<int>()) : "again.png");
+    EXPECT_TRUE(readFile(path) == readFile(screenshot)) << report["command"];
+}
+
+TEST(Window, showsThePictureCodeForCode) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    const std::string session = writeSession(
+        folder, "session", "key Tab\nrest\nscreenshot " + (folder / "a.png") + "\nkey Escape\nrest\nwait 3\nclose\n");
+    Program window({"view", cagePath("torus"), "--size", "320,240", "--play", session});
+    // While it waits, the screen shows what was written.
+    std::size_t different = 1;
+    for (int i = 0; i < 1000 && different > 0; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        if (!std::filesystem::exists(folder / "a.png")) continue;
+        const Image written = readImage(folder / "a.png");
+        const std::vector<std::uint8_t> screen = display.pixels(320, 240);
+        different = 0;
+        for (std::size_t k = 0; k < screen.size(); ++k) different += screen[k] != std::lround(255 * written.texels[k]);
+    }
+    EXPECT_EQ(different, 0u);
+    expectDone(window.wait());
+}
+
+TEST(Window, writesWhatRenderWritesAfterEverythingThatAUserDoes) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    writeWaves(folder / "waves.png", 3);
+    // Radiance: 8 x 4 pixels of red, green, blue and a shared exponent.
+    writeFile(folder / "sky.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\n" + std::string(128, '\x80'));
+    writeFile(folder / "broken.png", "no picture");
+    // Turned, moved, zoomed, lit; three files; a picture that cannot be read; all keys; another size; nothing at all.
+    std::string lines = "rest\nkey Tab\nmove 90 50\npress left\nmove 110 60\nmove 120 65\nrelease left\nwheel 2\n"
+                        "press middle\nmove 125 60\nrelease middle\npress left control\nmove 130 50\nrelease left\n"
+                        "screenshot " +
+                        (folder / "a.png") + "\nreport\n";
+    for (const std::string& file : {folder / "waves.png", folder / "sky.hdr", cagePath("ball")})
+        lines += "drop " + file + "\nrest\n";
+    lines += "key +\nkey T\nkey D\nrest\nscreenshot " + (folder / "b.png") + "\nreport\n";
+    lines += "drop " + (folder / "broken.png") + "\nrest\nreport\n";
+    for (const char* key :
+         {"F", "1", "3", "7", "5", "W", "W", "W", "H", "N", "N",      "N",    "N",     "N",   "N",   "V", "-",
+          "V", "Z", "X", "X", "X", "X", "X", "X", "Z", "?", "Escape", "Left", "Space", "Tab", "Tab", "H"})
+        lines += std::string("key ") + key + "\n";
+    lines += "rest\nsize 150 130\nrest\nscreenshot " + (folder / "c.png") + "\nrest\nreport\nwait 1\nreport\nclose\n";
+    const std::vector<nlohmann::json> reports =
+        reportsOf(relief({"view", cagePath("torus"), "--size", "160,120", "--scale", "0.1", "--play",
+                          writeSession(folder, "session", lines)}));
+    ASSERT_EQ(reports.size(), 5u);
+
+    // Each screenshot is the picture of the command line that the window names.
+    expectSame(reports[0], folder / "a.png", folder);
+    expectSame(reports[1], folder / "b.png", folder);
+    expectSame(reports[3], folder / "c.png", folder);
+    // The three files were shown; the broken one is an error, and what was shown stays.
+    EXPECT_EQ(reports[1]["reloads"], 4);
+    EXPECT_EQ(reports[1]["error"], "");
+    EXPECT_TRUE(contains(reports[2]["error"], "broken.png")) << reports[2];
+    EXPECT_EQ(reports[2]["command"], reports[1]["command"]);
+    EXPECT_EQ(reports[2]["reloads"], 4);
+    // A second in which nothing changes draws nothing.
+    EXPECT_EQ(reports[4]["frames"], reports[3]["frames"]);
+    EXPECT_EQ(reports[4]["pictures"], reports[3]["pictures"]);
+}
+
+TEST(Window, readsFilesAnewAndKeepsTheLastGoodOnes) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    writeWaves(folder / "waves.png", 2);
+    const std::string session =
+        writeSession(folder, "session",
+                     "rest\nscreenshot " + (folder / "a.png") + "\nwait 3\nrest\nscreenshot " + (folder / "b.png") +
+                         "\nreport\nwait 3\nrest\nscreenshot " + (folder / "c.png") + "\nreport\nclose\n");
+    const auto waitFor = [&](const char* name) {
+        for (int i = 0; i < 3000 && !std::filesystem::exists(folder / name); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    };
+    Program window({"view", cagePath("torus"), "--size", "160,120", "--height", folder / "waves.png", "--scale", "0.2",
+                    "--play", session});
+    waitFor("a.png");
+    writeWaves(folder / "waves.png", 5);
+    waitFor("b.png");
+    writeFile(folder / "waves.png", "half of a picture");
+    const std::vector<nlohmann::json> reports = reportsOf(window.wait());
+    ASSERT_EQ(reports.size(), 2u);
+    EXPECT_EQ(reports[0]["reloads"], 1);
+    EXPECT_EQ(reports[0]["error"], "");
+    EXPECT_FALSE(readFile(folder / "a.png") == readFile(folder / "b.png"));
+    EXPECT_EQ(reports[1]["reloads"], 1);
+    EXPECT_TRUE(contains(reports[1]["error"], "waves.png")) << reports[1];
+    EXPECT_TRUE(readFile(folder / "b.png") == readFile(folder / "c.png"));
+}
+
+TEST(Window, showsTheFramesOfAnimate) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    const std::string lines = "rest\nframe 5\nrest\nscreenshot " + (folder / "a.png") +
+                              "\nreport\nkey Right\nkey Right\nmove 200 100\npress left\nmove 180 100\nrelease left\n"
+                              "rest\nscreenshot " +
+                              (folder / "b.png") + "\nreport\nkey Space\nwait 1\nkey Space\nreport\nclose\n";
+    const std::vector<nlohmann::json> reports =
+        reportsOf(relief({"view", cagePath("torus"), "--size", "160,120", "--deform", "twist(axis=y, angle=60*sin(t))",
+                          "--frames", "0:40", "--play", writeSession(folder, "session", lines)}));
+    ASSERT_EQ(reports.size(), 3u);
+    EXPECT_EQ(reports[0]["frame"], 5);
+    expectSame(reports[0], folder / "a.png", folder);
+    EXPECT_EQ(reports[1]["frame"], 7);
+    expectSame(reports[1], folder / "b.png", folder);
+    EXPECT_GT(reports[2]["frame"], 7);
+    EXPECT_GT(reports[2]["pictures"], reports[1]["pictures"]);
+}
+
+TEST(Window, keepsItsMemoryOverThreeHundredFrames) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    // Everything is compiled; then two pictures by turns, with six looks at the memory; then frames of panels alone.
+    std::string lines = "rest\nkey V\nrest\nkey V\nrest\n";
+    for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < 10; ++k) lines += "key V\nrest\n";
+        lines += "report\n";
+    }
+    lines += "frames 300\nrest\nreport\nclose\n";
+    writeSession(folder, "session", lines);
+    // Without the validation layer, which keeps some kilobytes of every frame.
+    const Outcome outcome =
+        shell("RELIEF_VALIDATE=0 $RELIEF view " + cagePath("torus") + " --size 320,240 --no-shadows --play $IN/session",
+              folder);
+    const std::vector<nlohmann::json> reports = reportsOf(outcome);
+    ASSERT_EQ(reports.size(), 7u);
+    EXPECT_GE(reports[5]["pictures"].get<int>(), reports[0]["pictures"].get<int>() + 50);
+    EXPECT_GE(reports[6]["frames"].get<int>(), reports[5]["frames"].get<int>() + 300);
+    for (const nlohmann::json& report : reports) EXPECT_EQ(report["device_bytes"], reports[0]["device_bytes"]);
+    // Mesa's CPU driver keeps some megabytes of a picture for the next one, or not: the least of three looks is what
+    // stays. Thirty pictures would be 27 megabytes.
+    const auto bytes = [&](std::size_t i) { return reports[i]["host_bytes"].get<double>(); };
+    EXPECT_LT(std::min({bytes(3), bytes(4), bytes(5)}), std::min({bytes(0), bytes(1), bytes(2)}) + 12e6);
+    EXPECT_LT(bytes(6), bytes(5) + 100e3);
+}
+
+TEST(Window, closesWhileAFunctionIsCompiled) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    writeFile(folder / "waves.glsl", "float height(vec3 p, vec2 st, float t) { return 0.1 * sin(9.0 * p.x + t); }\n");
+    writeFile(folder / "bad.glsl", "float height(vec3 p, vec2 st, float t) { return waves; }\n");
+    const std::string lines =
+        "rest\ndrop " + (folder / "bad.glsl") + "\nrest\nreport\ndrop " + (folder / "waves.glsl") + "\nclose\n";
+    const std::vector<nlohmann::json> reports = reportsOf(
+        relief({"view", cagePath("torus"), "--size", "96,64", "--play", writeSession(folder, "session", lines)}));
+    ASSERT_EQ(reports.size(), 1u);
+    EXPECT_TRUE(contains(reports[0]["error"], "bad.glsl:1")) << reports[0];
+}
+
+TEST(Window, saysWhyItCannotOpen) {
+    unsetenv("DISPLAY");
+    unsetenv("WAYLAND_DISPLAY");
+    expectRefused(relief({"view", cagePath("torus")}), Failure::device, {"display", "relief render"});
+    expectRefused(relief({"view", "none.obj"}), Failure::device, {"display"});
+    expectRefused(relief({"view", cagePath("torus"), "--quit-after", "0"}), Failure::usage, {"--quit-after"});
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    expectRefused(relief({"view", "none.obj"}), Failure::file, {"none.obj"});
+    expectRefused(relief({"view", cagePath("torus"), "--play", writeSession(folder, "session", "rest\nmouse 1 2\n")}),
+                  Failure::input, {"session:2", "mouse"});
+    expectRefused(relief({"view", cagePath("torus"), "--record", folder / "no/session"}), Failure::file, {"no"});
+}
+
+TEST(Window, recordsWhatItPlays) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    const std::string lines = "rest\nmove 50 20\npress left shift\nmove 60 25\nrelease left\nrest\nkey W\nclose\n";
+    expectDone(relief({"view", cagePath("torus"), "--size", "96,64", "--play", writeSession(folder, "session", lines),
+                       "--record", folder / "recorded"}));
+    // When the picture comes to rest between events is the device's.
+    const auto withoutRests = [](const std::string& text) {
+        std::string kept;
+        std::istringstream each(text);
+        for (std::string line; std::getline(each, line);)
+            if (line != "rest") kept += line + '\n';
+        return kept;
+    };
+    const std::string recorded = readFile(folder / "recorded");
+    EXPECT_EQ(withoutRests(recorded), withoutRests(lines));
+    EXPECT_TRUE(recorded.starts_with("rest\nmove 50 20\n")) << recorded;
+}
+
+TEST(Window, writesItsFirstPictureAndCloses) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    const Outcome outcome = relief({"view", cagePath("torus"), "--size", "96,64", "--screenshot", folder / "a.png",
+                                    "--quit-after", "3", "--json"});
+    EXPECT_EQ(jsonOf(outcome)["frames"], 3);
+    expectDone(relief({"render", cagePath("torus"), "--size", "96,64", "-o", folder / "b.png", "--quiet"}));
+    EXPECT_TRUE(readFile(folder / "a.png") == readFile(folder / "b.png"));
+}
+
+} // namespace
+} // namespace relief::test
