@@ -40,6 +40,14 @@ picture bricks cube --height "$maps/bricks.exr" --albedo "$maps/bricks_albedo.pn
     --edge-pixels 1.5 --path grid --size 800,800
 picture wireframe octopus --height "$maps/octopus.exr" --show wireframe --azimuth -10 --elevation 12 --fov 24 \
     --edge-pixels 10 --size 1280,800
+# Light: metal, three lights with creases, and a ball's picture in place of both.
+picture metal torus --height "$maps/golf.exr" --metallic 1 --roughness 0.15 --color 0.95,0.64,0.37 --occlusion 0.1 \
+    --azimuth 25 --elevation 32 --edge-pixels 1.5 --size 960,540
+picture lights octopus --height "$maps/octopus.exr" --color 0.6,0.6,0.6 --azimuth -10 --elevation 12 --fov 24 --occlusion 0.1 \
+    --light -50,40,2,1,0.95,0.9 --light 70,15,2.5,1,0.35,0.15 --light 200,30,2,0.2,0.4,1 --edge-pixels 1.5 --size 960,600
+"$relief" matcap --color 0.75,0.2,0.1 --roughness 0.25 --metallic 0 -q -o "$out/matcap_ball.png"
+picture matcap octopus --height "$maps/octopus.exr" --shading matcap --matcap "$out/matcap_ball.png" --azimuth -10 \
+    --elevation 12 --fov 24 --edge-pixels 1.5 --size 960,600
 rm -f "$out/stats.json"
 
 # What heights can do besides: techniques side by side.

@@ -25,10 +25,12 @@ float mirrorFootprint(vec3 mirrored) {
     return footprint;
 }
 
-// The level of the environment whose texels are as large as what a pixel mirrors, or as rough as the surface.
+// The level of the environment whose texels are as large as what a pixel mirrors, or as rough as the surface. Levels of less
+// than 128 rows are blurred as rough surfaces do it, which is too much for a pixel's footprint.
 float mirrorLevel(vec3 mirrored, Material material) {
-    float texel = kPi / float(textureSize(environmentMap, 0).y);
-    return max(material.environmentLevel, log2(max(mirrorFootprint(mirrored), texel) / texel));
+    float rows = float(textureSize(environmentMap, 0).y), texel = kPi / rows;
+    float footprint = log2(max(mirrorFootprint(mirrored), texel) / texel);
+    return max(material.environmentLevel, min(footprint, max(log2(rows / 128.0), 0.0)));
 }
 
 // GGX as in keySpecular(), without Fresnel's factor. The sun and lamps are not points: the lobe has a least width.
@@ -39,16 +41,24 @@ float keyLobe(float nl, float nv, float nh, float roughness) {
     return a2 / (kPi * d * d) * visibility * nl;
 }
 
-vec3 conserving(vec3 position, vec3 n, vec3 v, vec3 albedo, Material material, float open) {
-    vec3 f0 = mix(vec3(0.04), albedo, material.metallic);
-    float nv = max(dot(n, v), 1e-4);
-
-    // Shares of the light of an even environment: reflected by one facet, by several, and scattered from below.
-    vec3 single = environmentBrdf(f0, material.roughness, nv);
-    float whole = environmentBrdf(vec3(1), material.roughness, nv).x;
+// What is reflected after more than one facet, where one reflects `single`, and with Fresnel's factor 1 `whole`.
+vec3 betweenFacets(vec3 single, vec3 f0, float whole) {
     vec3 mean = f0 + (1.0 - f0) / 21.0;
-    vec3 multiple = (1.0 - whole) * single * mean / (1.0 - (1.0 - whole) * mean);
-    vec3 scattered = (1.0 - material.metallic) * albedo * (1.0 - single - multiple);
+    return (1.0 - whole) * single * mean / (1.0 - (1.0 - whole) * mean);
+}
+
+vec3 conserving(vec3 position, vec3 n, vec3 v, vec3 albedo, Material material, float open) {
+    float nv = max(dot(n, v), 1e-4), metallic = material.metallic;
+    vec3 f0 = mix(vec3(0.04), albedo, metallic);
+
+    // Shares of the light of an even environment: reflected by one facet, by several, and scattered from below, which is what
+    // the dielectric part reflects in neither way.
+    float whole = environmentBrdf(vec3(1), material.roughness, nv).x;
+    vec3 dielectric = environmentBrdf(vec3(0.04), material.roughness, nv), metal = environmentBrdf(albedo, material.roughness, nv);
+    vec3 dielectricMore = betweenFacets(dielectric, vec3(0.04), whole);
+    vec3 single = mix(dielectric, metal, metallic);
+    vec3 multiple = mix(dielectricMore, betweenFacets(metal, albedo, whole), metallic);
+    vec3 scattered = (1.0 - metallic) * albedo * (1.0 - dielectric - dielectricMore);
 
     vec3 light = vec3(0);
     if (!kAddsLight) {

@@ -9,19 +9,19 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 const float kPi = 3.14159265;
-const int kSlices = 4, kSteps = 8;
+const int kSlices = 4, kSteps = 12;
 
 vec3 positionOf(vec2 pixel, float depth) {
     vec4 world = inputs.view.fromClip * vec4(pixel / vec2(inputs.view.pictureSize) * 2.0 - 1.0, depth, 1.0);
     return world.xyz / world.w;
 }
 
-// The cosine of the angle between v and the horizon on one side of the slice. Occluders fade out towards the radius.
-float horizonCosine(vec3 position, vec3 v, vec2 from, vec2 stride, float lowest) {
+// The cosine of the angle between v and the horizon on one side of the slice. Occluders fade out in the outer half of the radius.
+float horizonCosine(vec3 position, vec3 v, vec2 from, vec2 stride, float jitter, float lowest) {
     float highest = lowest;
     for (int i = 0; i < kSteps; ++i) {
         // Steps grow: near occluders need the finer ones.
-        float along = (float(i) + 1.0) / float(kSteps);
+        float along = (float(i) + jitter) / float(kSteps);
         vec2 there = floor(from + stride * along * along + sign(stride)) + 0.5;
         if (any(lessThan(there, vec2(0))) || any(greaterThanEqual(there, vec2(inputs.view.pictureSize)))) break;
         float depth = seenAt(ivec2(there), 0).depth;
@@ -29,7 +29,7 @@ float horizonCosine(vec3 position, vec3 v, vec2 from, vec2 stride, float lowest)
         vec3 d = positionOf(there, depth) - position;
         float far = length(d) / inputs.light.occlusionRadius;
         float cosine = dot(d, v) / max(length(d), 1e-20);
-        highest = max(highest, mix(cosine, lowest, clamp(far * far, 0.0, 1.0)));
+        highest = max(highest, mix(cosine, lowest, clamp(2.0 * far - 1.0, 0.0, 1.0)));
     }
     return highest;
 }
@@ -53,10 +53,11 @@ void main() {
     vec3 down = vec3(inputs.view.toClip[0].y, inputs.view.toClip[1].y, inputs.view.toClip[2].y);
     float w = dot(vec4(position, 1.0), vec4(inputs.view.toClip[0].w, inputs.view.toClip[1].w, inputs.view.toClip[2].w,
                                             inputs.view.toClip[3].w));
-    float reach = min(0.5 * float(size.y) * length(down) * inputs.light.occlusionRadius / max(w, 1e-20), 256.0);
+    float radius = min(0.5 * float(size.y) * length(down) * inputs.light.occlusionRadius / max(w, 1e-20), 256.0);
 
     // Slices are turned from pixel to pixel; 4 x 4 pixels have all turns.
     float turn = float((at.x & 3) * 4 + (at.y & 3)) / 16.0, open = 0.0;
+    float jitter = float((at.x * 5 + at.y * 3) & 3) / 4.0 + 0.25;
     for (int slice = 0; slice < kSlices; ++slice) {
         float angle = kPi * (float(slice) + turn) / float(kSlices);
         vec2 along = vec2(cos(angle), sin(angle));
@@ -68,8 +69,8 @@ void main() {
         float gamma = sign(dot(projected, tangent)) * acos(clamp(dot(projected, v) / length_, -1.0, 1.0));
         // Horizons to both sides, not below the surface's own half space.
         float lowest1 = cos(gamma + 0.5 * kPi), lowest2 = cos(gamma - 0.5 * kPi);
-        float h1 = acos(clamp(horizonCosine(position, v, pixel, along * reach, lowest1), -1.0, 1.0));
-        float h2 = -acos(clamp(horizonCosine(position, v, pixel, -along * reach, lowest2), -1.0, 1.0));
+        float h1 = acos(clamp(horizonCosine(position, v, pixel, along * radius, jitter, lowest1), -1.0, 1.0));
+        float h2 = -acos(clamp(horizonCosine(position, v, pixel, -along * radius, jitter, lowest2), -1.0, 1.0));
         h1 = gamma + min(h1 - gamma, 0.5 * kPi);
         h2 = gamma + max(h2 - gamma, -0.5 * kPi);
         float arc = 0.25 * (-cos(2.0 * h1 - gamma) + cos(gamma) + 2.0 * h1 * sin(gamma)) +

@@ -58,7 +58,8 @@ std::vector<std::string> prepareWords(int argc, char** argv) {
         if (words[i] == "--weld" && isAlone) words[i] = "--weld=0";
         if (isNumberWithoutZero(words[i])) words[i].insert(1, "0");
         // Azimuth and elevation may be two words, as those of other vectors.
-        if (words[i] == "--light" && i + 2 < words.size() && looksLikeNumber(words[i + 1]) && looksLikeNumber(words[i + 2])) {
+        if (words[i] == "--light" && i + 2 < words.size() && looksLikeNumber(words[i + 1]) &&
+            looksLikeNumber(words[i + 2])) {
             words[i + 1] += "," + words[i + 2];
             words.erase(words.begin() + std::ptrdiff_t(i) + 2);
         }

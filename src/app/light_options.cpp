@@ -39,6 +39,7 @@ void addLights(CLI::App& app, LightingDesc& lighting) {
                     Lighting().keyAzimuth - CameraOptions().azimuth, Lighting().keyElevation, Lighting().keyStrength,
                     DistantLight().strength));
     option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->check(CLI::Validator(check, ""));
+    option->allow_extra_args(false); // else a cage that follows would be taken for one more light
     listIn(kGroup, "AZ,EL[,S[,R,G,B]]", option);
 }
 

@@ -61,8 +61,8 @@ int drawBall(const BallArgs& args) {
     Device device({.name = args.device});
     const std::optional<GpuEnvironment> environment = makeEnvironment(device, loaded);
     const Lighting lighting = makeLighting(args.lighting, args.azimuth, environment ? &*environment : nullptr);
-    const Image ball = renderMatcap(device, makeMaterial(args.material), lighting, {args.azimuth, args.elevation},
-                                    args.side);
+    const Image ball =
+        renderMatcap(device, makeMaterial(args.material), lighting, {args.azimuth, args.elevation}, args.side);
     writeLight(args.target, ball);
     report(args, ball, "a ball");
     checkValidation(device);
@@ -92,7 +92,8 @@ Run addMatcap(CLI::App& app) {
     addReflection(app, args->material);
     addLighting(app, args->lighting);
     listIn("camera", "A", app.add_option("--azimuth", args->azimuth, "of the eye, degrees")->check(anyNumber()));
-    listIn("camera", "E", app.add_option("--elevation", args->elevation, "of the eye, degrees")->check(numberIn(-90, 90)));
+    listIn("camera", "E",
+           app.add_option("--elevation", args->elevation, "of the eye, degrees")->check(numberIn(-90, 90)));
     listIn("camera", "N", app.add_option("--side", args->side, "pixels each way")->check(CLI::Range(16, 4096)));
     addDevice(app, args->device);
     app.footer("example:\n  relief matcap -o ball.exr --color 0.8,0.3,0.1 --metallic 1 --roughness 0.3\n"

@@ -44,19 +44,27 @@ void project(const Image& image, vec3 irradiance[9]) {
     }
 }
 
-Environment prepare(Image base, int largestHeight = kLargestHeight) {
-    while (base.height > largestHeight) base = halved(base);
-    Environment environment;
+/// The roughness that the level of so many rows of a sharp environment is for. The lobe of GGX around what is mirrored
+/// has half its height at 1.3 r^2 radians to either side, which is 1.6 texels.
+double roughnessOfRows(int rows) { return std::min(1.0, 2 / std::sqrt(rows)); }
+
+Environment prepare(Image base, bool isSharp = false) {
+    const int largest = isSharp ? kSharpHeight : kLargestHeight;
+    while (base.height > largest) base = halved(base);
+    Environment environment{.levels = {}, .irradiance = {}, .isSharp = isSharp};
     environment.levels.push_back(std::move(base));
     while (environment.levels.back().height > 4) environment.levels.push_back(halved(environment.levels.back()));
-    // Level sizes halve, roughness grows evenly from 0 at the first to 1 at the last.
+    // Level sizes halve, roughness grows evenly from 0 at the first to 1 at the last; of a sharp one as its texels do.
     const auto last = double(environment.levels.size() - 1);
     std::size_t source = 0;
-    while (environment.levels[source].height > 2 * kFilteredHeight) ++source;
+    while (environment.levels[source].height > (isSharp ? 4 : 2) * kFilteredHeight) ++source;
     const Image light = environment.levels[source];
-    for (std::size_t level = source + 1; level < environment.levels.size(); ++level) {
+    // A sharp one of at most as many rows has its first level for mirrors.
+    const std::size_t first = isSharp && source > 0 ? source : source + 1;
+    for (std::size_t level = first; level < environment.levels.size(); ++level) {
         Image& image = environment.levels[level];
-        image = convolved(light, image.width, image.height, double(level) / last);
+        const double roughness = isSharp ? roughnessOfRows(image.height) : double(level) / last;
+        image = convolved(light, image.width, image.height, roughness);
     }
     project(light, environment.irradiance);
     return environment;
@@ -84,21 +92,23 @@ dvec3 studioLight(const dvec3& d) {
 
 } // namespace
 
-Environment studioEnvironment() {
+EnvironmentPicture makeStudioPicture() {
     Image image = blank(2 * kStudioHeight, kStudioHeight);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) set(image, x, y, studioLight(texelDirection(image, x, y)));
-    return prepare(std::move(image));
+    return {.shape = EnvironmentShape::equirect, .images = {std::move(image)}};
 }
+
+Environment studioEnvironment() { return prepare(makeStudioPicture().images.front()); }
 
 Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp) {
     RELIEF_CHECK(picture.images.size() == std::size_t(countImages(picture.shape)));
     const int largest = isSharp ? kSharpHeight : kLargestHeight;
-    if (picture.shape == EnvironmentShape::equirect) return prepare(picture.images.front(), largest);
+    if (picture.shape == EnvironmentShape::equirect) return prepare(picture.images.front(), isSharp);
     // Powers of two: levels halve down to four rows.
     int side = 16;
     while (side < std::min(largest, sideOf(picture, EnvironmentShape::equirect))) side *= 2;
-    return prepare(convert(picture, EnvironmentShape::equirect, side).images.front(), largest);
+    return prepare(convert(picture, EnvironmentShape::equirect, side).images.front(), isSharp);
 }
 
 Environment loadEnvironment(const std::string& path) { return makeEnvironment(readEnvironment(path).picture); }
@@ -119,7 +129,15 @@ GpuEnvironment uploadEnvironment(Device& device, const Environment& environment)
                                      .format = VK_FORMAT_R32G32B32A32_SFLOAT},
                                     std::as_bytes(std::span(texels)), 4 * sizeof(float));
     std::ranges::copy(environment.irradiance, uploaded.irradiance);
+    uploaded.isSharp = environment.isSharp;
     return uploaded;
+}
+
+float GpuEnvironment::levelOf(float roughness) const {
+    const auto last = float(levels.desc.mipCount - 1);
+    if (!isSharp) return roughness * last;
+    const double rows = levels.desc.height, level = std::log2(rows * roughness * roughness / 4);
+    return std::clamp(float(level), 0.0f, last); // of roughness 0 it is -infinity
 }
 
 } // namespace relief

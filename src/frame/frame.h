@@ -122,7 +122,7 @@ struct FrameStats {
     /// Times of the passes on the device, milliseconds; 0 where it cannot time.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
     double occlusionMs = 0, otherLightsMs = 0; ///< shadows and light of Lighting::others
-    double wallMs = 0;       ///< rates to pixels on the host
+    double wallMs = 0;                         ///< rates to pixels on the host
     PipelineCounts pipeline; ///< of the color pass, where RenderOptions asks for it and the device can
 };
 
@@ -170,6 +170,18 @@ private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
+
+/// What is seen from a point, and what is behind it.
+struct SurroundingsDesc {
+    dvec3 at{0}; ///< in the world
+    int side = 256;
+    const EnvironmentPicture* behind = nullptr; ///< where the instances are not; null: the built-in studio
+};
+
+/// Renders a cube of all that is around a point by six pictures of 90 degrees: an environment for what is put there and
+/// mirrors it. Cameras of the options are ignored, all else holds; depth goes as far as RenderOptions::bounds does.
+EnvironmentPicture captureSurroundings(Device& device, std::span<const Instance> instances, RenderOptions options,
+                                       const SurroundingsDesc& desc);
 
 enum class Background { studio, transparent, color };
 struct Finish {

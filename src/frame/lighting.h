@@ -13,11 +13,15 @@ namespace relief {
 /// An environment on the host, ready to light with: equirectangular, whatever shape it was read in.
 struct Environment {
     std::vector<Image> levels; ///< RGB radiance; level l is seen by a surface of roughness l / (levels.size() - 1)
-    vec3 irradiance[9];        ///< coefficients of polynomials of the normal, see light.comp
+    vec3 irradiance[9];        ///< coefficients of polynomials of the normal, see environment.glsl
+    bool isSharp = false;      ///< level l of h rows is seen by a roughness of 2 / sqrt(h)
 };
 
 /// The built-in neutral studio: a soft sky, a large soft box, a rim light, a warm floor.
 Environment studioEnvironment();
+
+/// The studio as a picture.
+EnvironmentPicture makeStudioPicture();
 
 /// Prepares a picture of any shape. Its first level has 512 rows at most, or 2048 where mirrors show it (`isSharp`).
 Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp = false);
@@ -28,6 +32,10 @@ Environment loadEnvironment(const std::string& path);
 struct GpuEnvironment {
     Texture levels; ///< one mip per level, RGBA
     vec3 irradiance[9]{};
+    bool isSharp = false;
+
+    /// The level that a surface of a roughness sees, from 0 on.
+    [[nodiscard]] float levelOf(float roughness) const;
 };
 
 /// Uploads a copy of `environment`: later changes of it do not show.
@@ -60,8 +68,8 @@ struct Material {
     std::optional<float> metallic;
 };
 
-/// Coefficients of c = k_a c_a + k_d c_d (n.l) + k_s c_s (v.r)^e (Hart, eq. 16.20), with the albedo for c_a and c_d, and
-/// white for c_s, all in the light of Lighting::key.
+/// Coefficients of c = k_a c_a + k_d c_d (n.l) + k_s c_s (v.r)^e (Hart, eq. 16.20), with the albedo for c_a and c_d,
+/// and white for c_s, all in the light of Lighting::key.
 struct PhongCoefficients {
     float ambient = 0.2f, diffuse = 0.8f, specular = 0.3f, exponent = 40;
 
@@ -89,8 +97,8 @@ GpuMatcap uploadMatcap(Device& device, Image ball);
 /// ambient and diffuse light is multiplied with the albedo by, and the highlight. n.l goes from 0 at the left to 1.
 Image makeShadingTable(const PhongCoefficients& phong);
 
-/// Renders a ball of a material in a light, without shadows, as an eye far away sees it from an azimuth and elevation in
-/// degrees: `side` pixels squared, the ball filling them, 3 channels of linear light; black outside.
+/// Renders a ball of a material in a light, without shadows, as an eye far away sees it from an azimuth and elevation
+/// in degrees: `side` pixels squared, the ball filling them, 3 channels of linear light; black outside.
 Image renderMatcap(Device& device, const Material& material, const Lighting& lighting, const dvec2& from,
                    int side = 512);
 

@@ -63,7 +63,7 @@ void Renderer::Parts::useEnvironment(Frame& frame) {
     }
     std::ranges::copy(environment->irradiance, frame.inputs.light.irradiance);
     for (pass::Material& material : frame.materials) {
-        material.environmentLevel = material.roughness * float(environment->levels.desc.mipCount - 1);
+        material.environmentLevel = environment->levelOf(material.roughness);
         if (frame.shading == kShadingPhysical) material.environmentLevel = std::round(material.environmentLevel);
     }
     frame.bindings[kBindEnvironment] = {.view = environment->levels.view.get(), .sampler = around.get()};

@@ -8,6 +8,18 @@
 
 namespace relief {
 
+/// What draws balls for matcaps: an eye far away sees a ball of radius 1, which fills the picture.
+struct BallStudio {
+    BallStudio(Device& device, int side);
+
+    DenseMesh mesh;
+    MeshModel model;
+    Renderer renderer;
+
+    /// Linear light with alpha, as seen from the direction `back`.
+    Image draw(const Material& material, Lighting lighting, const dvec3& back);
+};
+
 struct Renderer::Parts {
     using SamplerKey = std::tuple<Filter, float, Wrap>;
 
@@ -32,6 +44,7 @@ struct Renderer::Parts {
     std::map<std::uint32_t, Buffer> grids;                    ///< index buffers of quads by their columns,
     std::map<std::uint32_t, Buffer> triangleGrids;            ///< of triangles by their rate
     std::optional<GpuEnvironment> studio;                     ///< uploaded when first needed
+    std::unique_ptr<BallStudio> ball;                         ///< made when first needed
     std::optional<GpuMatcap> ownMatcap;                       ///< of the picture's own material and lights
     std::optional<Texture> shadingTable;                      ///< of `tablePhong`
     PhongCoefficients tablePhong;

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <glm/gtc/packing.hpp>
-
 #include "frame/renderer_parts.h"
 
 namespace relief {
@@ -42,11 +40,29 @@ DenseMesh makeBall(std::uint32_t n) {
     return ball;
 }
 
-/// Renders the ball as an eye in the direction `back` sees it from so far away that all lines of sight are parallel.
-Image renderBall(Device& device, const Material& material, Lighting lighting, const dvec3& back, int side) {
-    // Twice as many pixels each way as the picture has, of which means are taken: the rim has no steps.
-    const DenseMesh mesh = makeBall(256);
-    const MeshModel model(device, {.mesh = &mesh});
+/// Colors of what the ball covers of each pixel, which are means of `part` x `part` pixels.
+Image toBall(const Image& picture, int part) {
+    const int side = picture.width / part;
+    Image ball{side, side, 3, std::vector<float>(std::size_t(side) * std::size_t(side) * 3)};
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            vec4 sum(0);
+            for (int k = 0; k < part * part; ++k) {
+                const float* c = picture.at(part * x + k % part, part * y + k / part);
+                sum += vec4(c[0], c[1], c[2], c[3]);
+            }
+            for (int c = 0; c < 3 && sum.w > 0; ++c) ball.at(x, y)[c] = sum[c] / sum.w;
+        }
+    return ball;
+}
+
+} // namespace
+
+BallStudio::BallStudio(Device& device, int side)
+    : mesh(makeBall(256)), model(device, {.mesh = &mesh}),
+      renderer(device, {.width = side, .height = side, .shadowSide = 1}) {}
+
+Image BallStudio::draw(const Material& material, Lighting lighting, const dvec3& back) {
     constexpr double kDistance = 1e3;
     RenderOptions options;
     options.lighting = std::move(lighting);
@@ -58,24 +74,8 @@ Image renderBall(Device& device, const Material& material, Lighting lighting, co
                       .fieldOfView = 2 * std::asin(1 / kDistance) * 180 / std::numbers::pi,
                       .nearDistance = kDistance - 2,
                       .farDistance = kDistance + 2};
-    Renderer renderer(device, {.width = 2 * side, .height = 2 * side, .shadowSide = 1});
-    const Image picture = renderer.render(Instance(model, material), options).image();
-
-    // Colors of what the ball covers of each pixel.
-    Image ball{side, side, 3, std::vector<float>(std::size_t(side) * std::size_t(side) * 3)};
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x) {
-            vec4 sum(0);
-            for (int k = 0; k < 4; ++k) {
-                const float* c = picture.at(2 * x + k % 2, 2 * y + k / 2);
-                sum += vec4(c[0], c[1], c[2], c[3]);
-            }
-            for (int c = 0; c < 3 && sum.w > 0; ++c) ball.at(x, y)[c] = sum[c] / sum.w;
-        }
-    return ball;
+    return renderer.render(Instance(model, material), options).image();
 }
-
-} // namespace
 
 // --- what is shaded with ------------------------------------------------------------------------------------------
 
@@ -122,15 +122,16 @@ GpuMatcap uploadMatcap(Device& device, Image ball) {
 }
 
 Image renderMatcap(Device& device, const Material& material, const Lighting& lighting, const dvec2& from, int side) {
-    return renderBall(device, material, lighting, directionAt(from.x, from.y), side);
+    // Twice as many pixels each way as the picture has: the rim has no steps.
+    return toBall(BallStudio(device, 2 * side).draw(material, lighting, directionAt(from.x, from.y)), 2);
 }
 
 /// The ball that stands for the picture's own material and lights, as its camera sees them.
 void Renderer::Parts::makeOwnMatcap(const Material& material, const RenderOptions& options) {
-    constexpr int kSide = 512;
+    constexpr int kSide = 1024;
     const dvec3 back = glm::normalize(options.camera.eye - options.camera.target);
-    Lighting lighting = options.lighting;
-    ownMatcap = uploadMatcap(device, renderBall(device, material, std::move(lighting), back, kSide));
+    if (!ball) ball = std::make_unique<BallStudio>(device, kSide);
+    ownMatcap = uploadMatcap(device, toBall(ball->draw(material, options.lighting, back), 1));
 }
 
 void Renderer::Parts::useShading(Frame& frame) {
@@ -145,7 +146,8 @@ void Renderer::Parts::useShading(Frame& frame) {
         use(*shadingTable);
     }
     if (frame.shading != kShadingMatcap) return;
-    use(frame.options.matcap != nullptr ? frame.options.matcap->ball : ownMatcap->ball);
+    const GpuMatcap* ball = frame.options.matcap != nullptr ? frame.options.matcap : ownMatcap ? &*ownMatcap : nullptr;
+    if (ball != nullptr) use(ball->ball); // crossings need no light
     // The ball has the material's color: what is left to multiply it by is a color map.
     for (pass::Material& material : frame.materials) material.albedo = vec3(1);
 }

@@ -112,12 +112,14 @@ EnvironmentPicture blur(const EnvironmentPicture& picture, double roughness) {
 // --- equirectangular pictures, texel by texel ---------------------------------------------------------------------
 
 dvec3 texelDirection(const Image& image, int x, int y) {
-    const double phi = ((x + 0.5) / image.width - 0.5) * 2 * std::numbers::pi, theta = (y + 0.5) / image.height * std::numbers::pi;
+    const double phi = ((x + 0.5) / image.width - 0.5) * 2 * std::numbers::pi,
+                 theta = (y + 0.5) / image.height * std::numbers::pi;
     return {std::sin(theta) * std::sin(phi), std::cos(theta), -std::sin(theta) * std::cos(phi)};
 }
 
 double texelSolidAngle(const Image& image, int y) {
-    return 2 * std::numbers::pi / image.width * (std::cos(y * std::numbers::pi / image.height) - std::cos((y + 1) * std::numbers::pi / image.height));
+    return 2 * std::numbers::pi / image.width *
+           (std::cos(y * std::numbers::pi / image.height) - std::cos((y + 1) * std::numbers::pi / image.height));
 }
 
 Image halved(const Image& from) {

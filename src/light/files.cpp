@@ -98,8 +98,9 @@ EnvironmentPicture readFaces(const std::string& path) {
         if (image.width != image.height || image.width != first.width)
             fail(Failure::input, "{}: the face is {} x {}; the faces of a cube are six squares of one size{}", file,
                  image.width, image.height,
-                 cube.images.empty() ? "" : fmt::format(", and {} is {} x {}", nameFace(path, (*names)[0]),
-                                                        first.width, first.height));
+                 cube.images.empty()
+                     ? ""
+                     : fmt::format(", and {} is {} x {}", nameFace(path, (*names)[0]), first.width, first.height));
         cube.images.push_back(std::move(image));
     }
     return cube;

@@ -44,7 +44,7 @@ inline constexpr int kCubeFaces = 6;
 /// Number of pictures that a shape consists of.
 constexpr int countImages(EnvironmentShape shape) { return shape == EnvironmentShape::cube ? kCubeFaces : 1; }
 
-/// A point of a picture: the number of the image, and the place in it from (0,0) at the top left to (1,1).
+/// A point of a picture: the number of the image, and the point of it from (0,0) at the top left to (1,1).
 struct PicturePoint {
     int image = 0;
     dvec2 at{0};
@@ -105,9 +105,9 @@ struct EnvironmentFile {
 /// Largest radiance of a file. The sun has 1.6e9 candela per square metre, and sums over all pixels stay finite.
 inline constexpr float kMostRadiance = 1e12f;
 
-/// Reads an environment. A path with {face} stands for six files, whose names have px nx py ny pz nz there, or posx negx
-/// and so on, or right left up down front back. Without a shape, the sides of the picture decide: 2:1 equirectangular,
-/// 4:3 and 3:4 crosses, 6:1 a strip, 1:1 a sphere map where the corners outside of the ball are black.
+/// Reads an environment. A path with {face} stands for six files, whose names have px nx py ny pz nz there, or posx
+/// negx and so on, or right left up down front back. Without a shape, the sides of the picture decide: 2:1
+/// equirectangular, 4:3 and 3:4 crosses, 6:1 a strip, 1:1 a sphere map where the corners outside of the ball are black.
 /// Throws Failure::input for missing faces, faces of different sizes, sides that are no shape's, crosses with something
 /// beside the faces, and texels that are not numbers in 0..kMostRadiance; as readImage does.
 EnvironmentFile readEnvironment(const std::string& path, std::optional<EnvironmentShape> shape = {});

@@ -17,8 +17,8 @@ struct CubeFace {
 
 /// Vulkan's table of (s_c, t_c, m_a) with z turned around (see EnvironmentPicture).
 constexpr CubeFace kFaces[kCubeFaces] = {
-    {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},  {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}},
-    {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}},  {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}},
+    {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}}, {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}},
+    {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}},
 };
 
 dvec3 directionInEquirect(const dvec2& at) {
@@ -94,17 +94,14 @@ dvec3 directionOf(EnvironmentShape shape, const PicturePoint& point) {
 PicturePoint pointOf(EnvironmentShape shape, const dvec3& d) {
     if (shape == EnvironmentShape::cube) return pointOfCube(d);
     if (shape == EnvironmentShape::sphere) return pointOfSphere(d);
-    return {0,
-            {std::atan2(d.x, -d.z) / (2 * kPi) + 0.5, std::acos(std::clamp(d.y / glm::length(d), -1.0, 1.0)) / kPi}};
+    return {0, {std::atan2(d.x, -d.z) / (2 * kPi) + 0.5, std::acos(std::clamp(d.y / glm::length(d), -1.0, 1.0)) / kPi}};
 }
 
 dvec3 lookUp(const EnvironmentPicture& picture, const dvec3& direction) {
     const PicturePoint point = pointOf(picture.shape, direction);
     const Image& image = picture.images[std::size_t(point.image)];
     const dvec2 at = point.at * dvec2(image.width, image.height) - 0.5, low = glm::floor(at), part = at - low;
-    const auto texel = [&](int i, int j) {
-        return texelBeside(picture, point.image, int(low.x) + i, int(low.y) + j);
-    };
+    const auto texel = [&](int i, int j) { return texelBeside(picture, point.image, int(low.x) + i, int(low.y) + j); };
     return glm::mix(glm::mix(texel(0, 0), texel(1, 0), part.x), glm::mix(texel(0, 1), texel(1, 1), part.x), part.y);
 }
 

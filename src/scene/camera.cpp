@@ -81,8 +81,7 @@ Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textu
     if (textureColor) material.albedo = *textureColor;
     if (desc.color) material.albedo = *desc.color;
     material.roughness = desc.roughness;
-    material.metallic = desc.metallic;
-    if (isMirror(desc) && !material.metallic) material.metallic = 0;
+    if (desc.conservesEnergy()) material.metallic = desc.metallic.value_or(0);
     return material;
 }
 

@@ -175,8 +175,7 @@ void loadLight(LoadedScene& scene, const SceneDesc& desc) {
     const std::string& path = desc.lighting.environment;
     if (path.empty()) return;
     const EnvironmentFile file = readEnvironment(path, desc.lighting.shape);
-    const MaterialDesc& material = desc.object.material;
-    scene.environment = makeEnvironment(file.picture, material.metallic || isMirror(material));
+    scene.environment = makeEnvironment(file.picture, desc.object.material.conservesEnergy());
     if (file.isChosen) scene.environmentNote = fmt::format("{}: {}", path, describe(file.picture, file.layout));
 }
 

@@ -33,9 +33,6 @@ struct JoinedPictures {
 /// Throws as listTiles and loadColors do; warns of tiles that are made smaller.
 JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& empty, const Warn& warn);
 
-/// Whether a material is so smooth that it shows the environment as it is.
-inline bool isMirror(const MaterialDesc& material) { return material.roughness < 0.05f; }
-
 /// Reads a square color picture of a ball. Colors of 8 and 16 bits are sRGB, as --albedo; floats are linear.
 /// Throws Failure::input for other pictures and for texels that are not finite.
 Image loadMatcap(const std::string& path);

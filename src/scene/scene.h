@@ -9,6 +9,7 @@
 
 #include "frame/frame.h"
 #include "pose/pose.h"
+#include "scene/light_desc.h"
 #include "scene/words.h"
 
 namespace relief {
@@ -37,13 +38,6 @@ struct HeightDesc {
     Detail detail = Detail::displacement; ///< for verbs that draw pictures
 };
 
-/// A normal map as NormalOptions describes it. The path is empty where there is none.
-struct NormalMapDesc {
-    std::string path;
-    NormalSpace space = NormalSpace::tangent;
-    NormalY y = NormalY::up;
-};
-
 /// What moves the cage. Paths and deformers are empty where they are not asked for.
 struct MotionDesc {
     std::string cachePath; ///< point cache
@@ -54,14 +48,6 @@ struct MotionDesc {
     std::optional<double> time; ///< seconds: the pose of a single picture or mesh; default 0
 
     [[nodiscard]] bool isStill() const { return cachePath.empty() && skinPath.empty() && deformers.empty(); }
-};
-
-struct MaterialDesc {
-    std::string albedo;        ///< path of a color map, or empty
-    std::optional<vec3> color; ///< linear, multiplies the map; default: that of Material, or white with a map
-    float roughness = Material().roughness; ///< below 0.05: as if metallic were 0
-    std::optional<float> metallic;          ///< of Material
-    NormalMapDesc normalMap;
 };
 
 struct ObjectDesc {

@@ -62,7 +62,8 @@ TEST_F(EnvironmentFiles, crossesAreUnfoldedCubes) {
     const EnvironmentPicture cube = drawPicture(EnvironmentShape::cube, 32, smoothLight);
     const Image cross = arrangeFaces(cube, CubeLayout::cross), column = arrangeFaces(cube, CubeLayout::column);
     const auto expectClose = [](const Image& image, ivec2 a, ivec2 b) {
-        for (int c = 0; c < 3; ++c) EXPECT_NEAR(image.at(a.x, a.y)[c], image.at(b.x, b.y)[c], 0.05) << a.x << ' ' << a.y;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(image.at(a.x, a.y)[c], image.at(b.x, b.y)[c], 0.05) << a.x << ' ' << a.y;
     };
     for (int i = 0; i < 32; i += 5) {
         for (int face = 1; face < 4; ++face) expectClose(cross, {32 * face - 1, 32 + i}, {32 * face, 32 + i});

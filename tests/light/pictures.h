@@ -92,7 +92,8 @@ inline std::vector<dvec3> randomDirections(int count) {
     std::mt19937 random(7);
     std::normal_distribution<double> normal;
     std::vector<dvec3> all;
-    for (int i = 0; i < count; ++i) all.push_back(glm::normalize(dvec3(normal(random), normal(random), normal(random))));
+    for (int i = 0; i < count; ++i)
+        all.push_back(glm::normalize(dvec3(normal(random), normal(random), normal(random))));
     return all;
 }
 

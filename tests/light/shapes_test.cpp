@@ -27,7 +27,8 @@ Errors errorsOf(const EnvironmentPicture& picture, const Light& light, int count
     return errors;
 }
 
-// Directions that stand in a sphere map's last ring of texels are what it cannot hold: 4 / sqrt(side) radians around -Z.
+// Directions that stand in a sphere map's last ring of texels are what it cannot hold: 4 / sqrt(side) radians around
+// -Z.
 TEST(Shapes, showTheLightOfEveryDirection) {
     for (const EnvironmentShape shape : kShapes) {
         const bool isSphere = shape == EnvironmentShape::sphere;
@@ -59,12 +60,16 @@ TEST(Shapes, areContinuousAcrossSeamsEdgesAndPoles) {
     for (const EnvironmentShape shape : kShapes) {
         const EnvironmentPicture picture = drawPicture(shape, 32, smoothLight);
         // Across the seam of longitudes, along the edges and corners of the cube, around a pole.
-        const dvec3 places[] = {{0, 0.3, 1}, {1, 0.2, -1}, {1, 1, 1}, {1, 1, -1}, {0, 1, 0.001}, {-1, -1, 0.5}};
-        for (const dvec3& place : places)
+        const dvec3 points[] = {{0, 0.3, 1}, {1, 0.2, -1}, {1, 1, 1}, {1, 1, -1}, {0, 1, 0.001}, {-1, -1, 0.5}};
+        for (const dvec3& point : points)
             for (const dvec3& aside : {dvec3(1e-6, 0, 0), dvec3(0, 1e-6, 0), dvec3(0, 0, 1e-6)})
-                EXPECT_LT(glm::length(lookUp(picture, place + aside) - lookUp(picture, place - aside)), 0.02)
-                    << int(shape) << ' ' << place.x << ' ' << place.y << ' ' << place.z;
+                EXPECT_LT(glm::length(lookUp(picture, point + aside) - lookUp(picture, point - aside)), 0.02)
+                    << int(shape) << ' ' << point.x << ' ' << point.y << ' ' << point.z;
     }
+    // Around the pole of eight rows, the outermost texels are eleven degrees from it.
+    const EnvironmentPicture coarse = drawPicture(EnvironmentShape::equirect, 8, smoothLight);
+    for (const double y : {1.0, -1.0})
+        EXPECT_LT(glm::length(lookUp(coarse, {1e-6, y, 0}) - lookUp(coarse, {-1e-6, y, 0})), 0.001) << y;
 }
 
 // cube -> sphere -> cube and equirect -> cube -> equirect, texel by texel.
@@ -144,7 +149,9 @@ TEST(Conversions, keepOrderOrientationAndHandedness) {
             EXPECT_LT(glm::length(lookUp(there, {0, 0.5, 1})), 0.1) << "the arrow behind the eye";
             EXPECT_LT(glm::length(lookUp(there, {-0.74, 0, 1}) - dvec3(1)), 0.1) << "and the square to its right";
         }
-        expectLabels(convert(convert(cube, shape, shape == EnvironmentShape::sphere ? 384 : 128), EnvironmentShape::cube, 48), "there and back");
+        expectLabels(
+            convert(convert(cube, shape, shape == EnvironmentShape::sphere ? 384 : 128), EnvironmentShape::cube, 48),
+            "there and back");
     }
 }
 
@@ -156,9 +163,8 @@ TEST(Blur, keepsEvenLightAndSpreadsALampByItsLobe) {
     for (const Image& face : blur(even, 0.6).images)
         for (std::size_t i = 0; i < face.texels.size(); i += 3) EXPECT_NEAR(face.texels[i], 0.7, 1e-4);
     // A lamp along +X: at an angle a the lobe of GGX has n.h = cos(a/2), and falls off by D(h) (n.l).
-    const EnvironmentPicture lamp = drawPicture(EnvironmentShape::equirect, 64, [](const dvec3& d) {
-        return dvec3(d.x > std::cos(0.1) ? 100 : 0);
-    });
+    const EnvironmentPicture lamp = drawPicture(EnvironmentShape::equirect, 64,
+                                                [](const dvec3& d) { return dvec3(d.x > std::cos(0.1) ? 100 : 0); });
     const double roughness = 0.6, a2 = std::pow(roughness, 4);
     const EnvironmentPicture blurred = blur(lamp, roughness);
     const auto lobe = [&](double angle) {
