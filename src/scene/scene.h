@@ -61,25 +61,6 @@ struct ObjectDesc {
     MotionDesc motion;
 };
 
-struct LightingDesc {
-    std::optional<dvec2> key;          ///< azimuth and elevation of the key light, degrees; default: left of the camera
-    std::optional<double> keyStrength; ///< default: that of Lighting
-    std::optional<vec3> keyColor;
-    std::vector<DistantLight> others;
-    bool castsShadows = Lighting().castsShadows;
-    std::string environment;               ///< path as of readEnvironment; empty: the built-in studio
-    std::optional<EnvironmentShape> shape; ///< of it; default: what its sides say
-    double occlusionRadius = 0;            ///< as Lighting's
-};
-
-/// How surfaces shade.
-struct ShadingDesc {
-    Shading shading = Shading::physical;
-    PhongCoefficients phong;
-    bool tableAtVertices = false;
-    std::string matcap; ///< path of a picture of a ball; empty: one of the object's own material and lights
-};
-
 struct SceneDesc {
     ObjectDesc object;
     CameraOptions camera;                                    ///< in the world
