@@ -55,7 +55,8 @@ struct OsdInput {
     std::vector<Osd::PatchCoord> coords;
 
     OsdInput(const Cage& cage, int isolation, std::span<const PatchPoint> points)
-        : tables(makeFarTables(cage, {.isolation = isolation})), patches(tables.patches.get()) {
+        : tables(makeFarTables(cage, {.isolation = isolation, .endCaps = EndCapKind::gregory})),
+          patches(tables.patches.get()) {
         for (const Point& point : refineAll(tables, cage.positions)) controlPoints.emplace_back(point.value);
         const Far::PatchMap map(*tables.patches);
         for (const PatchPoint& point : points)
@@ -291,7 +292,7 @@ std::vector<EvaluatorTime> timeEvaluators(const Cage& cage, int isolation, std::
     }
 
     // The results of the last round, compared with the reference.
-    const ReferenceSurface reference(cage, {.isolation = isolation});
+    const ReferenceSurface reference(cage, {.isolation = isolation, .endCaps = EndCapKind::gregory});
     Bounds bounds;
     for (const vec3& p : cage.positions) bounds.add(dvec3(p));
     std::vector<EvaluatorTime> times;

@@ -33,7 +33,7 @@ mat2 capDirections(uint corner) {
 
 vec2 capCoordinates(uint corner, vec2 uv) {
 #ifdef RELIEF_TRIANGLES
-    float w = 1.0 - uv.x - uv.y;
+    precise float w = 1.0 - max(uv.x, uv.y) - min(uv.x, uv.y); // the first difference is exact beside a corner
     return corner == 0u ? uv : corner == 1u ? vec2(uv.y, w) : vec2(w, uv.x);
 #else
     vec2 other = 1.0 - uv;

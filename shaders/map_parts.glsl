@@ -12,7 +12,7 @@ uint heightWord(int i) {
     return (i & 1) == 0 ? words.x : words.y;
 }
 
-// Where a height is looked up; which of them a map goes by is its addressing.
+// Where a height is looked up: a map's addressing says by which of these.
 struct MapPlace {
     uint face;
     vec2 uv;

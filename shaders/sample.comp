@@ -29,8 +29,8 @@ void main() {
     inputs.targets.sampleResults.at[i].gradient = s.gradient;
     inputs.targets.sampleResults.at[i].q = s.q;
     inputs.targets.sampleResults.at[i].m = s.normal;
-    if (kVectorSpace == kVectorNone) return;
-    inputs.targets.sampleResults.at[i].c = s.vector.c;
-    inputs.targets.sampleResults.at[i].cs = s.vector.dc[0];
-    inputs.targets.sampleResults.at[i].ct = s.vector.dc[1];
+    bool isVector = kVectorSpace != kVectorNone;
+    inputs.targets.sampleResults.at[i].c = isVector ? s.vector.c : vec3(0);
+    inputs.targets.sampleResults.at[i].cs = isVector ? s.vector.dc[0] : vec3(0);
+    inputs.targets.sampleResults.at[i].ct = isVector ? s.vector.dc[1] : vec3(0);
 }

@@ -195,7 +195,7 @@ double foldFactor(const SampleResult& result);
 
 /// Evaluates the device's own frames: `results[i]` is the answer to `samples.queries[i]`.
 CurvatureReport reportCurvature(const SurfaceSamples& samples, std::span<const SampleResult> results);
-/// The same of vector maps, whose fold factors are those of `errors`.
+/// Evaluates the frames of a vector map, whose fold factors are those of `errors`.
 CurvatureReport reportFolds(const SurfaceSamples& samples, std::span<const SampleResult> results,
                             std::span<const SampleError> errors);
 

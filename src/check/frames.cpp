@@ -4,7 +4,6 @@
 
 #include "check/angles.h"
 #include "check/check.h"
-#include "displacement/vector_map.h"
 
 namespace relief {
 namespace {
@@ -70,7 +69,7 @@ bool isAmbiguous(const VectorMap& map, const TexFrame& tex) {
     return map.space == VectorSpace::tangent && !(std::abs(glm::determinant(J)) > kSingular * squares);
 }
 
-/// The same of vectors: the reference's surface moved by the device's own components.
+/// Errors of a sample that vectors move: against the reference's surface moved by the device's own components.
 void checkVectors(SampleError& error, const SampleQuery& query, const SampleResult& r, const FrameComparison& with) {
     constexpr double kPoint = 1e-6, kShareOfLength = 1e-2, kDegrees = 0.1;
     const VectorSample sample{dvec3(r.c), dvec3(r.cs), dvec3(r.ct)};

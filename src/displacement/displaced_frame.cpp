@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "displacement/displacement.h"
+#include "displacement/reference_parts.h"
 #include "displacement/vector_map.h"
 
 namespace relief {

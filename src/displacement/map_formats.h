@@ -11,7 +11,7 @@ std::uint64_t levelBytes(MapFormat format, const ivec2& size);
 
 /// Stores a level in words that are 0; returns the largest difference between its texels and what a reader finds.
 float storeLevel(std::span<std::uint32_t> to, const MapEncoding& encoding, const MapLevel<float>& level);
-/// The same by blocks that are encoded already.
+/// Stores a level as storeLevel() does, from blocks that are encoded already where the format has blocks.
 float storeBlocks(std::span<std::uint32_t> to, const MapEncoding& encoding, const MapLevel<float>& level,
                   std::span<const std::uint8_t> blocks);
 

@@ -34,7 +34,7 @@ inline int apronOf(Addressing addressing) {
     return addressing == Addressing::texture ? 0 : addressing == Addressing::tiles ? kTileApron : kFaceApron;
 }
 
-/// Where a height is looked up; which of them a map goes by is its addressing.
+/// Where a height is looked up: a map's addressing says by which of these.
 struct MapPlace {
     int face = 0;
     dvec2 uv{0}, st{0};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "displacement/reference_parts.h"
 #include "displacement/vector_map.h"
 
 namespace relief {

@@ -1,7 +1,7 @@
-// For other modules: displacement by vectors. Loading, convention, lookup, and the double-precision reference.
+// Displacement by vectors: loading, convention, lookup, and the double-precision reference.
 #pragma once
 
-#include "displacement/displacement.h"
+#include "displacement/displaced_frame.h"
 #include "shared/constants.h"
 
 namespace relief {
@@ -81,13 +81,5 @@ DisplacedFrame displacedByVectors(const VectorReference& reference, const Vector
 /// heights 1 + h kappa. 0 or less where the surface has turned over: it is folded, or hangs over. Not finite without a
 /// tangent plane.
 double computeFoldFactor(const DisplacedFrame& frame);
-
-// --- internal to the module -----------------------------------------------------------------------------------------
-
-/// The limit surface at a point, not displaced.
-DisplacedFrame frameWithoutHeight(const ReferenceSurface& surface, int face, const dvec2& uv);
-
-/// What heights are multiplied with where they stretch with the surface since the rest pose.
-double computeStretch(const ReferenceSurface& rest, const ReferenceSurface& now, int face, const dvec2& uv);
 
 } // namespace relief

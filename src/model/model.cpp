@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "displacement/tile_levels.h"
-#include "displacement/vector_map.h"
 #include "model/pictures.h"
 #include "model/stages.h"
 

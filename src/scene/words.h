@@ -3,7 +3,6 @@
 
 #include "animation/animation.h"
 #include "base/words.h"
-#include "displacement/vector_map.h"
 #include "frame/frame.h"
 #include "pose/pose.h"
 

@@ -97,10 +97,11 @@ TEST_F(Loading, listsAllFilesThatOutputsMustNotReplace) {
                                .height = {.path = "b", .function = "h"},
                                .material = {.albedo = "c", .normalMap = {.path = "g"}},
                                .motion = {.cachePath = "d", .skinPath = "e"}},
-                    .lighting = {.environment = "f"}};
+                    .lighting = {.environment = "f"},
+                    .shading = {.matcap = "i"}};
     std::vector<std::string> files = listFiles(scene);
     std::ranges::sort(files);
-    EXPECT_EQ(files, (std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g", "h"}));
+    EXPECT_EQ(files, (std::vector<std::string>{"a", "b", "c", "d", "e", "f", "g", "h", "i"}));
 }
 
 } // namespace
