@@ -38,11 +38,11 @@ RELIEF_CONSTANT uint kBindNormalMap = 23u;        // sampled image: unit normals
 RELIEF_CONSTANT uint kBindMeshTexGradients = 24u; // table: kGradientTexels or more per vertex of a mesh
 RELIEF_CONSTANT uint kBindMeshIndices = 25u;      // table: three per triangle of a mesh
 RELIEF_CONSTANT uint kBindScreen = 26u;           // table: vertices of a mesh on the screen, see shaders/raster.glsl
-RELIEF_CONSTANT uint kBindSamples = 27u;     // table: two samples of a picture per element: normal and depth of each
-RELIEF_CONSTANT uint kBindShadowCodes = 28u; // table: depths from the key light, kShadowCodes
-RELIEF_CONSTANT uint kBindSampleColors = 29u;     // table: two samples per element: normal and colour of each
-RELIEF_CONSTANT uint kBindSampleInstances = 30u;  // table: four numbers of instances per pixel
-RELIEF_CONSTANT uint kBindFaceTriangles = 31u;    // table: first triangle and rate of each face of a diced mesh
+RELIEF_CONSTANT uint kBindSamples = 27u;      // table: two samples of a picture per element: normal and depth of each
+RELIEF_CONSTANT uint kBindShadowCodes = 28u;  // table: depths from the key light, kShadowCodes
+RELIEF_CONSTANT uint kBindSampleColors = 29u; // table: two samples per element: normal and colour of each
+RELIEF_CONSTANT uint kBindSampleInstances = 30u; // table: four numbers of instances per pixel
+RELIEF_CONSTANT uint kBindFaceTriangles = 31u;   // table: first triangle and rate of each face of a diced mesh
 RELIEF_CONSTANT uint kBindCount = 32u;
 
 // light.comp: sampled image, the table of kShadingTable or the ball of kShadingMatcap. It has no color map.

@@ -60,11 +60,12 @@ TEST_F(Maps, ofColorThatRepeatUnaskedAreWarnedOfOnce) {
     EXPECT_EQ(std::count(ofBoth.begin(), ofBoth.end(), '\n'), 1) << ofBoth;
 }
 
-TEST_F(Maps, ofTilesAreRefusedWithAWord) {
-    for (const char* option : {"--height", "--albedo", "--environment"})
-        expectRefused(render(folder, cagePath("plane"), {option, "rock.<UDIM>.exr"}), Failure::usage,
-                      {"rock.<UDIM>.exr", "UDIM"});
-    expectRefused(relief({"info", "rock_<UVTILE>.tif"}), Failure::usage, {"UDIM"});
+TEST_F(Maps, ofTilesWithoutFilesAreRefused) {
+    for (const char* option : {"--height", "--albedo", "--normal-map"})
+        expectRefused(render(folder, cagePath("plane"), {option, "rock.<UDIM>.exr"}), Failure::file,
+                      {"rock.<UDIM>.exr", "rock.1001.exr"});
+    expectRefused(render(folder, cagePath("plane"), {"--environment", "rock.<UDIM>.exr"}), Failure::usage, {"UDIM"});
+    expectRefused(relief({"info", "rock_<UVTILE>.tif"}), Failure::file, {"rock_u1_v1.tif"});
 }
 
 TEST_F(Maps, withVoidsShowTheirHeights) {
