@@ -20,10 +20,10 @@ public:
     /// Computes the distance from `p` to the nearest point. `limit`: a distance within which there is one; the closer
     /// the quicker.
     [[nodiscard]] double distance(const dvec3& p, double limit) const;
-    /// As MeasuredSurface::nearestOnLine.
+    /// Finds what MeasuredSurface::nearestOnLine does.
     [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
                                                        Facing facing) const;
-    /// As MeasuredSurface::isBlocked.
+    /// Answers what MeasuredSurface::isBlocked does.
     [[nodiscard]] bool isBlocked(const dvec3& p, const dvec3& direction, double reach) const;
     [[nodiscard]] const std::vector<vec3>& positions() const { return positions_; }
     [[nodiscard]] const std::vector<std::uint32_t>& indices() const { return indices_; }

@@ -20,7 +20,7 @@ FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage);
 /// Reads a color map. Throws Failure::input for fewer than 3 channels and for texels that are not finite; warns where
 /// the file has several layers and where values are clamped to 0..1.
 Image loadColors(const std::string& path, const Warn& warn);
-/// The same, or all files of a set of tiles.
+/// Reads the color map of an object as loadColors() does: one picture, or all files of a set of tiles.
 void loadAlbedo(LoadedObject& object, const std::string& path, const Warn& warn);
 
 /// The pictures of a set of tiles in one, over all unit squares that the set spans.

@@ -50,13 +50,13 @@ public:
     [[nodiscard]] int texValueAt(FaceCorner at) const { return level_.GetFaceFVarValues(at.face)[at.corner]; }
     [[nodiscard]] FaceCorner turned(FaceCorner at, int step) const { return {at.face, next(at.corner, step)}; }
 
-    /// The same vertex in the face on the other side of the edge that leaves the corner, clockwise around it.
+    /// The vertex of a corner, in the face on the other side of the edge that leaves the corner: clockwise around it.
     [[nodiscard]] std::optional<FaceCorner> before(FaceCorner at) const {
         const auto other = across(at, 0);
         if (!other) return {};
         return turned(*other, 1);
     }
-    /// The same vertex in the face on the other side of the edge that arrives at the corner.
+    /// The vertex of a corner, in the face on the other side of the edge that arrives at the corner.
     [[nodiscard]] std::optional<FaceCorner> after(FaceCorner at) const { return across(at, -1); }
 
     /// Nothing where rules are semi-sharp or the level ends.
