@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
+#include <ctime>
 #include <string_view>
 
 #include <pthread.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include "base/base.h"
@@ -23,13 +25,34 @@ constexpr std::size_t kScarceBytes = 128 << 20;
     _exit(int(Failure::device));
 }
 
-void onCrash(int signal) {
+bool isMemoryScarce() {
     void* more = mmap(nullptr, kScarceBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (more == MAP_FAILED)
+    if (more == MAP_FAILED) return true;
+    munmap(more, kScarceBytes);
+    return false;
+}
+
+void onCrash(int signal) {
+    if (isMemoryScarce())
         endHere("relief: out of memory: a library crashed where 128 MB more cannot be allocated; raise the limit "
                 "(ulimit -v)\n");
-    munmap(more, kScarceBytes);
     raise(signal); // the handler is reset: this is the system's own way to end
+}
+
+constexpr int kSecondsBetweenLooks = 5;
+constexpr long kIdleNanoseconds = 2'000'000; ///< of processor time between two looks
+
+/// Called every few seconds. A library whose thread cannot be started may wait for it for ever (log4cplus does, while
+/// it is loaded): nothing happens any more, and no memory is left.
+void onLook(int) {
+    static timespec before{};
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    const long used = (now.tv_sec - before.tv_sec) * 1'000'000'000 + (now.tv_nsec - before.tv_nsec);
+    before = now;
+    if (used < kIdleNanoseconds && isMemoryScarce())
+        endHere("relief: out of memory: a library waits where 128 MB more cannot be allocated; raise the limit "
+                "(ulimit -v)\n");
 }
 
 bool isLimited(int resource) {
@@ -52,6 +75,11 @@ void endWhereMemoryRunsOut() {
     action.sa_handler = onCrash;
     action.sa_flags = int(SA_RESETHAND);
     for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGABRT}) sigaction(signal, &action, nullptr);
+    action.sa_handler = onLook;
+    action.sa_flags = SA_RESTART;
+    sigaction(SIGALRM, &action, nullptr);
+    const itimerval looks = {.it_interval = {kSecondsBetweenLooks, 0}, .it_value = {kSecondsBetweenLooks, 0}};
+    setitimer(ITIMER_REAL, &looks, nullptr);
 }
 
 } // namespace relief::app

@@ -73,8 +73,8 @@ std::jthread prepareImages() {
     return std::jthread([] {
         try {
             imageModule();
-        } catch (const std::exception&) { // whoever needs a picture says so
-        }
+        } catch (const Error&) { // whoever needs a picture says so
+        } // Memory that ran out ends the program: the loader stays locked, and the next call of it would wait.
     });
 }
 

@@ -8,7 +8,8 @@
 separate_arguments(FLAGS)
 set(compiler ${GLSLANG} -V --quiet --target-env vulkan1.3)
 set(optimizer ${SPIRV_OPT} --target-env=vulkan1.3 --scalar-block-layout --inline-entry-points-exhaustive
-    --eliminate-dead-functions --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive)
+    --eliminate-dead-functions --eliminate-local-single-block --eliminate-local-single-store --eliminate-dead-code-aggressive
+    --eliminate-dead-branches --merge-blocks --scalar-replacement=100 --ssa-rewrite --eliminate-dead-code-aggressive)
 
 # Errors carry the file and line.
 function(call program)
