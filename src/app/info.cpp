@@ -260,7 +260,9 @@ void checkUsage(const InfoArgs& args) {
     if (args.files.empty() && !args.listsDevices) fail(Failure::usage, "info needs files, or --devices");
     const HeightDesc& height = args.object.height;
     if (!hasHeights(args) || std::ranges::count_if(args.files, isCage) == 1) return;
-    if (!height.path.empty()) fail(Failure::usage, "--height {}: name the one cage that the map is for", height.path);
+    if (!height.path.empty())
+        fail(Failure::usage, "--{} {}: name the one cage that the map is for", height.vectors ? "vector" : "height",
+             height.path);
     fail(Failure::usage, "--height-function {}: name the one cage that the function is for", height.function);
 }
 
@@ -295,13 +297,13 @@ Run addInfo(CLI::App& app) {
     auto args = std::make_shared<InfoArgs>();
     app.add_option("files", args->files, "cages (.obj .gltf .glb), height maps and other pictures")
         ->option_text("FILE...");
-    addSurfaceOptions(app, args->object);
-    addHeightFunction(app, args->object.height);
+    addHeightedSurface(app, args->object);
     app.add_flag("--devices", args->listsDevices,
                  "list the Vulkan devices of this machine: the default --path on each, and what each cannot do");
     app.add_flag("--json", args->isJson, "print JSON on stdout");
     app.add_flag("-q,--quiet", args->isQuiet, "print no warnings");
-    app.footer("With --height or --height-function, the report of a cage says how far the heights on the two sides of "
+    app.footer("With --height, --vector or --height-function, the report of a cage says how far the heights on the two "
+               "sides of "
                "its edges\n"
                "differ.\n"
                "examples:\n"

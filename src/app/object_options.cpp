@@ -1,5 +1,6 @@
 #include "app/object_options.h"
 
+#include "app/layer_options.h"
 #include "app/options.h"
 #include "app/units.h"
 
@@ -132,11 +133,18 @@ void addObject(CLI::App& app, ObjectDesc& object) {
     app.add_option("cage", object.cage, "control cage, or mesh of triangles: .obj .gltf .glb")
         ->required()
         ->option_text("CAGE");
+    addHeightedSurface(app, object);
+    addMotion(app, object.motion);
+}
+
+void addHeightedSurface(CLI::App& app, ObjectDesc& object) {
     addSurfaceOptions(app, object);
     addVectors(app, object.height);
     addHeightFunction(app, object.height);
-    app.get_option("--height-function")->excludes(app.get_option("--vector"));
-    addMotion(app, object.motion);
+    addLayers(app, object.height);
+    for (const char* ofMaps : {"--vector", "--layer"})
+        app.get_option("--height-function")->excludes(app.get_option(ofMaps));
+    addPlacement(app, object);
 }
 
 void addSurface(CLI::App& app, ObjectDesc& object) {

@@ -13,6 +13,8 @@ void addObject(CLI::App& app, ObjectDesc& object);
 void addSurface(CLI::App& app, ObjectDesc& object);
 /// Adds the options of a surface and its height map alone.
 void addSurfaceOptions(CLI::App& app, ObjectDesc& object);
+/// Adds the options of a surface and of all that displaces it: height and vector maps, layers, height functions.
+void addHeightedSurface(CLI::App& app, ObjectDesc& object);
 /// Adds --height-function and --height-bound, for verbs that have addSurfaceOptions.
 void addHeightFunction(CLI::App& app, HeightDesc& height);
 /// Adds --scale, --mid and --channel: how the values of a height map are read.

@@ -18,7 +18,7 @@ constexpr std::uint32_t kMostGltfInfluences = 8; ///< joints that are kept of a 
 struct GltfPrimitive {
     std::vector<vec3> positions;          ///< in the space of the mesh
     std::vector<vec3> normals;            ///< one per vertex, or empty
-    std::vector<vec2> texCoords;          ///< TEXCOORD_0 with t turned to run up; one per vertex, or empty
+    std::vector<vec2> texCoords;          ///< TEXCOORD_n with t turned to run up; one per vertex, or empty
     std::vector<std::uint32_t> triangles; ///< three vertices each; empty where the primitive makes no surface
     std::vector<vec3> offsets;            ///< of morph targets, target after target: one per vertex
     std::uint32_t influenceCount = 0;     ///< joints per vertex; 0: the primitive has none
@@ -99,19 +99,20 @@ struct GltfMaterial {
 /// Reads the materials of the triangles that the file's scene shows, each once, in the order of the file; those of
 /// primitives without one are not in the list. They change no shape, so that nothing in them is a fault of the file:
 /// `warn` gets what is wrong with a texture, and the material is without it. Textures by other coordinates than
-/// TEXCOORD_0, transformed ones and those that are neither PNG nor JPEG are not read. Neither is the attribute TANGENT:
-/// tangents are those of the surface that is drawn.
-/// Throws as readGltf does for the file itself and for its nodes.
-std::vector<GltfMaterial> readGltfMaterials(const std::string& path, const Warn& warn);
+/// TEXCOORD_n with n = `uvSet`, transformed ones and those that are neither PNG nor JPEG are not read. Neither is the
+/// attribute TANGENT: tangents are those of the surface that is drawn. Throws as readGltf does for the file itself and
+/// for its nodes.
+std::vector<GltfMaterial> readGltfMaterials(const std::string& path, const Warn& warn, std::uint32_t uvSet = 0);
 
 /// Reads a .gltf with the buffers beside it, or a .glb: by its first bytes, whatever its name. Of the animations it
 /// reads `clip`, a name or a number ("": the first, if there is one), or none. What the file's scene does not need is
 /// never looked at (images, materials, other animations, meshes that are not shown), so that nothing in it is a fault;
-/// its nodes, meshes and skins stay empty.
+/// its nodes, meshes and skins stay empty. Of texture coordinates it reads TEXCOORD_n with n = `uvSet`.
 /// Throws Failure::file when the file or a buffer cannot be read; Failure::input, naming the element, for anything that
 /// is not glTF 2.0, a scene without a mesh, buffers outside the file's folder, and extensions without which the file
 /// cannot be understood.
-GltfScene readGltf(const std::string& path, const std::optional<std::string>& clip, const Warn& warn);
+GltfScene readGltf(const std::string& path, const std::optional<std::string>& clip, const Warn& warn,
+                   std::uint32_t uvSet = 0);
 
 /// Returns the transforms of all nodes when no animation moves them, per node.
 std::vector<GltfTransform> restTransforms(const GltfScene& scene);
@@ -139,7 +140,8 @@ dvec3 morphedPosition(const GltfPrimitive& primitive, std::size_t vertex, std::s
 /// Returns the first line of a file's text in a form that messages may contain: not too long, no control characters.
 std::string printable(std::string_view text);
 
-/// Reads the triangles of the file's scene as a cage: see readCage.
-Cage readGltfCage(const std::string& path, const Warn& warn);
+/// Reads the triangles of the file's scene as a cage: see readCage. Texture coordinates are TEXCOORD_n with n =
+/// `uvSet`; throws Failure::input where none of the triangles has that set, other than 0.
+Cage readGltfCage(const std::string& path, const Warn& warn, std::uint32_t uvSet = 0);
 
 } // namespace relief

@@ -197,10 +197,12 @@ void warnOfCoarseFloats(double spacing, double size, const std::string& path, co
 
 } // namespace
 
-Cage readGltfCage(const std::string& path, const Warn& warn) {
-    const GltfScene scene = readGltf(path, {}, warn);
+Cage readGltfCage(const std::string& path, const Warn& warn, std::uint32_t uvSet) {
+    const GltfScene scene = readGltf(path, {}, warn, uvSet);
     const std::size_t all = countPrimitives(scene, [](const GltfPrimitive&) { return true; });
     const std::size_t textured = countPrimitives(scene, [](const GltfPrimitive& p) { return !p.texCoords.empty(); });
+    if (uvSet > 0 && textured == 0)
+        fail(Failure::input, "{}: none of its meshes has the texture coordinates TEXCOORD_{}", path, uvSet);
     if (textured > 0 && textured < all)
         warn(fmt::format("{}: only some of its meshes have texture coordinates; they are ignored", path));
 

@@ -99,7 +99,7 @@ std::optional<GltfTexture> MaterialReader::readTexture(const GltfElement& from, 
 /// Follows texture information to its texture and on to the picture (sections 5.30, 5.29 and 5.18).
 GltfTexture MaterialReader::takeTexture(const GltfElement& info) {
     const std::uint32_t set = info.integer("texCoord").value_or(0);
-    if (set != 0) info.fail("is mapped by TEXCOORD_{}; relief reads TEXCOORD_0", set);
+    if (set != document_.uvSet) info.fail("is mapped by TEXCOORD_{}; TEXCOORD_{} is read", set, document_.uvSet);
     if (info.extension("KHR_texture_transform")) info.fail("is transformed (KHR_texture_transform)");
     const GltfElement texture =
         document_.entry("textures", "texture", *info.need("index").integer("index"), info.place());
@@ -135,8 +135,9 @@ std::string MaterialReader::bytesOf(const GltfElement& image) {
 
 } // namespace
 
-std::vector<GltfMaterial> readGltfMaterials(const std::string& path, const Warn& warn) {
-    const GltfDocument document = loadGltfDocument(path, warn);
+std::vector<GltfMaterial> readGltfMaterials(const std::string& path, const Warn& warn, std::uint32_t uvSet) {
+    GltfDocument document = loadGltfDocument(path, warn);
+    document.uvSet = uvSet;
     return MaterialReader(document, warn).read();
 }
 

@@ -155,14 +155,15 @@ std::vector<float> PrimitiveReader::attribute(const std::string& name, GltfUse u
 }
 
 void PrimitiveReader::readVertices() {
+    const std::string texCoordName = fmt::format("TEXCOORD_{}", reading_.document.uvSet);
     GltfUse positions = use("POSITION", TINYGLTF_TYPE_VEC3), normals = use("NORMAL", TINYGLTF_TYPE_VEC3),
-            texCoords = use("TEXCOORD_0", TINYGLTF_TYPE_VEC2);
+            texCoords = use(texCoordName, TINYGLTF_TYPE_VEC2);
     positions.takesQuantized = normals.takesQuantized = texCoords.takesQuantized = true;
     positions.count.reset(); // it says how many the others have
     texCoords.takesNormalized = true;
     primitive_.positions = grouped<vec3>(attribute("POSITION", positions));
     primitive_.normals = grouped<vec3>(attribute("NORMAL", normals));
-    primitive_.texCoords = grouped<vec2>(attribute("TEXCOORD_0", texCoords));
+    primitive_.texCoords = grouped<vec2>(attribute(texCoordName, texCoords));
     for (vec2& st : primitive_.texCoords) st.y = 1 - st.y; // glTF's run down from the upper edge (section 3.9.2)
 }
 

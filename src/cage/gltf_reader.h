@@ -25,6 +25,7 @@ struct GltfDocument {
     std::string file;                         ///< of a .glb, all its bytes
     std::size_t firstByte = 0, byteCount = 0; ///< of its second chunk, in `file`; none in a .gltf
     bool isBinary = false;
+    std::uint32_t uvSet = 0; ///< TEXCOORD_n is read with this n
 
     [[nodiscard]] GltfElement root() const { return {json, path, ""}; }
     /// An entry of one of the file's own lists. Throws, naming the place that asks for it, where there is none.

@@ -279,8 +279,10 @@ void SceneReader::checkJoints(std::uint32_t index) const {
 
 } // namespace
 
-GltfScene readGltf(const std::string& path, const std::optional<std::string>& clip, const Warn& warn) {
-    const GltfDocument document = loadGltfDocument(path, warn);
+GltfScene readGltf(const std::string& path, const std::optional<std::string>& clip, const Warn& warn,
+                   std::uint32_t uvSet) {
+    GltfDocument document = loadGltfDocument(path, warn);
+    document.uvSet = uvSet;
     return SceneReader(document, clip).read(warn);
 }
 

@@ -1,4 +1,5 @@
 #include "base/clock.h"
+#include "cage/gltf.h"
 #include "scene/loading.h"
 
 namespace relief {
@@ -37,17 +38,31 @@ void checkUse(const ObjectDesc& desc, bool isDense) {
 }
 
 /// Vectors of an object do not turn with what moves its cage, and no normal is bent by vectors.
-void checkVectors(const ObjectDesc& desc) {
-    if (!desc.height.vectors) return;
+void checkVectors(const ObjectDesc& desc, const std::string& path, const std::optional<VectorOptions>& vectors) {
+    if (!vectors) return;
     const Detail detail = desc.height.detail;
     if (detail == Detail::bump || detail == Detail::both)
-        fail(Failure::usage, "{}: vectors move the surface; --detail {} is for heights", desc.height.path,
+        fail(Failure::usage, "{}: vectors move the surface; --detail {} is for heights", path,
              wordOf(kDetails, detail));
-    if (desc.height.vectors->space == VectorSpace::object && !desc.motion.isStill())
+    if (vectors->space == VectorSpace::object && !desc.motion.isStill())
         fail(Failure::usage,
              "{}: vectors of object space do not follow a cage that changes its shape; bake them as --vector-space "
              "tangent",
-             desc.height.path);
+             path);
+}
+
+void checkAllVectors(const ObjectDesc& desc) {
+    checkVectors(desc, desc.height.path, desc.height.vectors);
+    for (const LayerDesc& layer : desc.height.layers) checkVectors(desc, layer.path, layer.vectors);
+}
+
+Cage readObjectCage(const ObjectDesc& desc, const Warn& warn) {
+    if (desc.uvSet == 0) return readCage(desc.cage, warn);
+    const std::string extension = lowerExtension(desc.cage);
+    if (extension != ".gltf" && extension != ".glb")
+        fail(Failure::usage, "{}: --uv-set {} is of glTF files; an .obj has one set of texture coordinates", desc.cage,
+             desc.uvSet);
+    return readGltfCage(desc.cage, warn, desc.uvSet);
 }
 
 /// Normals are bent and turned along texture coordinates. (u,v) of faces, which stand for them where heights displace,
@@ -105,7 +120,9 @@ void splitForTangents(LoadedObject& object) {
 std::vector<std::string> listFiles(const ObjectDesc& object) {
     std::vector<std::string> files{object.cage, object.height.function, object.motion.cachePath,
                                    object.motion.skinPath};
-    for (const std::string& map : {object.height.path, object.material.albedo, object.material.normalMap.path}) {
+    std::vector<std::string> maps{object.height.path, object.material.albedo, object.material.normalMap.path};
+    for (const LayerDesc& layer : object.height.layers) maps.push_back(layer.path), maps.push_back(layer.mask);
+    for (const std::string& map : maps) {
         files.push_back(map);
         if (!findTilePattern(map)) continue;
         for (const TileFile& tile : listTiles(map)) files.push_back(tile.path);
@@ -125,12 +142,16 @@ const Coordinates& LoadedObject::coordinates() const {
 }
 
 LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
-    checkVectors(desc);
+    if (desc.height.path.empty() && !desc.height.layers.empty())
+        fail(Failure::usage, "--layer {}: layers are added to a map; name the first one with --height or --vector",
+             desc.height.layers.front().path);
+    checkAllVectors(desc);
     LoadedObject object;
     const double start = secondsNow();
-    object.cage = readCage(desc.cage, warn);
+    object.cage = readObjectCage(desc, warn);
     checkTexCoords(object.cage, {desc.height.path, desc.material.albedo, desc.material.normalMap.path}, warn);
     checkBentNormals(desc, object.cage);
+    placeTexCoords(object.cage, desc);
     const Subdivision subdivision = chooseSubdivision(desc, object.cage);
     const bool isDense = subdivision == Subdivision::none;
     object.wrap = desc.height.wrap.value_or(object.wrap);

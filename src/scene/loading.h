@@ -5,9 +5,13 @@
 
 namespace relief {
 
-/// Reads the height map of an object. Warns of a cage without texture coordinates, of tiles that a set lacks, and as
-/// warnOutsideMap does. Throws Failure::usage for what does not go with a set of tiles or a map per face, and
-/// Failure::input for a set and a cage without texture coordinates.
+/// Applies ObjectDesc::placement to the texture coordinates of a cage, in double precision: repeat * (s,t) + offset.
+/// Throws Failure::input for a cage without texture coordinates, Failure::usage for an object with a set of tiles.
+void placeTexCoords(Cage& cage, const ObjectDesc& desc);
+
+/// Reads the height map of an object, and adds its layers. Warns of a cage without texture coordinates, of tiles that a
+/// set lacks, and as warnOutsideMap does. Throws Failure::usage for what does not go with a set of tiles or a map per
+/// face, and Failure::input for a set and a cage without texture coordinates.
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn);
 
 /// Fits a map per face to the surface of its cage and stores it as its encoding says. Does nothing with other maps.

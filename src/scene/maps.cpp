@@ -18,15 +18,30 @@ std::pair<vec2, vec2> texCoordRange(const Cage& cage) {
     return {lower, upper};
 }
 
+bool isInUnitSquare(const Cage& cage) {
+    constexpr float kRounding = 1e-4f; // of programs that write texture coordinates with a few digits
+    const auto [lower, upper] = texCoordRange(cage);
+    return lower.x >= -kRounding && lower.y >= -kRounding && upper.x <= 1 + kRounding && upper.y <= 1 + kRounding;
+}
+
 } // namespace
 
+void placeTexCoords(Cage& cage, const ObjectDesc& desc) {
+    if (desc.placement.isIdentity()) return;
+    if (!cage.hasTexCoords())
+        fail(Failure::input, "{}: there are no texture coordinates, which --map-repeat and --map-offset change",
+             desc.cage);
+    for (const std::string& map : {desc.height.path, desc.material.albedo, desc.material.normalMap.path})
+        if (findTilePattern(map))
+            fail(Failure::usage,
+                 "{}: a set of tiles has its own texture coordinates; omit --map-repeat and --map-offset", map);
+    for (vec2& st : cage.texCoords) st = vec2(desc.placement.at(dvec2(st)));
+}
+
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn) {
-    constexpr float kRounding = 1e-4f; // of programs that write texture coordinates with a few digits
-    if (desc.height.wrap || !cage.hasTexCoords() || findTilePattern(map)) return;
+    if (desc.height.wrap || !desc.placement.isIdentity() || !cage.hasTexCoords() || findTilePattern(map)) return;
+    if (isInUnitSquare(cage)) return;
     const auto [lower, upper] = texCoordRange(cage);
-    const bool isInside =
-        lower.x >= -kRounding && lower.y >= -kRounding && upper.x <= 1 + kRounding && upper.y <= 1 + kRounding;
-    if (isInside) return;
     warn(fmt::format("{}: texture coordinates go from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}), outside of 0..1, where {} "
                      "repeats; --wrap repeat or clamp says what is meant, and a name with <UDIM> a set of tiles",
                      desc.cage, lower.x, lower.y, upper.x, upper.y, map));
@@ -66,17 +81,68 @@ void warnOfFlatTexCoords(const LoadedObject& object, const std::string& path, co
 
 namespace {
 
-/// Warns as loadHeights does. The map has its own encodings.
-HeightMap loadVectors(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
+/// Reads one map of an object, heights or vectors, which have their own encodings.
+EncodedMap readHeights(const HeightDesc& height, const LayerDesc& map, const Warn& warn) {
+    if (map.vectors) {
+        VectorOptions options = *map.vectors;
+        options.mid = map.mid, options.scale = map.scale, options.channel = map.channel;
+        options.format = height.format, options.wrap = height.wrap.value_or(options.wrap);
+        return {.decoded = loadVectorMap(map.path, options, warn), .encoding = {}};
+    }
+    if (findTilePattern(map.path) && height.wrap)
+        fail(Failure::usage, "{}: a set of tiles does not repeat; omit --wrap", map.path);
+    HeightOptions options{
+        .mid = map.mid, .scale = map.scale, .channel = map.channel, .format = height.format, .limits = {}};
+    options.wrap = height.wrap.value_or(options.wrap);
+    return loadHeightMap(map.path, options, warn);
+}
+
+MapLayer readLayer(const HeightDesc& height, const LayerDesc& desc, const Warn& warn) {
+    HeightDesc asStored = height; // the sum is encoded, not what it is made of
+    asStored.format.reset();
+    MapLayer layer{.name = desc.path,
+                   .map = readHeights(asStored, desc, warn).decoded,
+                   .placement = desc.placement,
+                   .maskName = desc.mask,
+                   .mask = {}};
+    if (desc.mask.empty()) return layer;
+    // Shares of 8 bits are no stairs to warn of.
+    const LayerDesc mask{
+        .path = desc.mask, .mid = 0, .scale = 1, .channel = {}, .vectors = {}, .mask = {}, .placement = {}};
+    layer.mask = readHeights(asStored, mask, [](const std::string&) {}).decoded;
+    return layer;
+}
+
+/// The map of an object, with its layers added.
+EncodedMap readAllHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
     const HeightDesc& height = desc.height;
-    VectorOptions options = *height.vectors;
-    options.mid = height.mid, options.scale = height.scale, options.channel = height.channel;
-    options.format = height.format, options.wrap = height.wrap.value_or(options.wrap);
-    HeightMap map = loadVectorMap(height.path, options, warn);
-    if (!cage.hasTexCoords())
-        warn(fmt::format("{}: no texture coordinates: every face takes the whole map", desc.cage));
-    warnOutsideMap(desc, cage, height.path, warn);
-    return map;
+    const LayerDesc first{.path = height.path,
+                          .mid = height.mid,
+                          .scale = height.scale,
+                          .channel = height.channel,
+                          .vectors = height.vectors,
+                          .mask = {},
+                          .placement = {}};
+    if (height.layers.empty()) return readHeights(height, first, warn);
+    std::vector<MapLayer> layers{readLayer(height, first, warn)};
+    for (const LayerDesc& layer : height.layers) layers.push_back(readLayer(height, layer, warn));
+    const Wrap wrap = height.wrap.value_or(Wrap::repeat);
+    EncodedMap sum = addLayers(layers, wrap, height.format.value_or(MapFormat::real));
+    if (sum.decoded.addressing == Addressing::texture && wrap == Wrap::repeat && !repeatsWhole(layers) &&
+        cage.hasTexCoords() && !isInUnitSquare(cage))
+        fail(Failure::usage,
+             "{}: texture coordinates leave 0..1, where the sum of layers repeats: each repeat= has to be a whole "
+             "number",
+             desc.cage);
+    return sum;
+}
+
+/// The first set of tiles among the maps of an object.
+std::string findSet(const HeightDesc& height) {
+    if (findTilePattern(height.path)) return height.path;
+    for (const LayerDesc& layer : height.layers)
+        if (findTilePattern(layer.path)) return layer.path;
+    return height.path;
 }
 
 /// Tiles that corners of faces lie in, each a little towards the middle of its face: on a border they would be others.
@@ -125,31 +191,31 @@ void fitHeights(LoadedObject& object, const ObjectDesc& desc) {
 }
 
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
-    const HeightDesc& height = desc.height;
-    if (height.vectors) return {.decoded = loadVectors(desc, cage, warn), .encoding = {}};
-    HeightOptions options{
-        .mid = height.mid, .scale = height.scale, .channel = height.channel, .format = height.format, .limits = {}};
-    options.wrap = height.wrap.value_or(options.wrap);
-    if (findTilePattern(height.path) && height.wrap)
-        fail(Failure::usage, "{}: a set of tiles does not repeat; omit --wrap", height.path);
-    EncodedMap map = loadHeightMap(height.path, options, warn);
+    EncodedMap map = readAllHeights(desc, cage, warn);
+    const std::string& path = desc.height.path;
     if (map.decoded.addressing == Addressing::faces) {
         if (desc.height.detail == Detail::bump || desc.height.detail == Detail::both)
             fail(Failure::usage,
-                 "{}: a map per face has no texture coordinates, which bend normals; use --detail displacement",
-                 height.path);
+                 "{}: a map per face has no texture coordinates, which bend normals; use --detail displacement", path);
+        if (!desc.placement.isIdentity() && desc.material.albedo.empty() && desc.material.normalMap.path.empty())
+            fail(Failure::usage,
+                 "{}: a map per face has no texture coordinates to change; omit --map-repeat and --map-offset", path);
         return map;
     }
     if (map.decoded.addressing == Addressing::tiles) {
+        const std::string set = findSet(desc.height);
         if (!cage.hasTexCoords())
             fail(Failure::input, "{}: there are no texture coordinates, which the set of tiles {} needs", desc.cage,
-                 height.path);
-        warnOfMissingTiles(cage, map.decoded, height.path, warn);
+                 set);
+        if (!desc.placement.isIdentity())
+            fail(Failure::usage,
+                 "{}: a set of tiles has its own texture coordinates; omit --map-repeat and --map-offset", set);
+        warnOfMissingTiles(cage, map.decoded, set, warn);
         return map;
     }
     if (!cage.hasTexCoords())
         warn(fmt::format("{}: no texture coordinates: every face takes the whole map", desc.cage));
-    warnOutsideMap(desc, cage, height.path, warn);
+    warnOutsideMap(desc, cage, path, warn);
     return map;
 }
 

@@ -103,7 +103,7 @@ void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const Warn& 
     const bool isGltf = extension == ".gltf" || extension == ".glb";
     const bool wantsColors = desc.material.albedo.empty(), wantsNormals = desc.material.normalMap.path.empty();
     if (!isGltf || (!wantsColors && !wantsNormals)) return;
-    const std::vector<GltfMaterial> materials = readGltfMaterials(desc.cage, warn);
+    const std::vector<GltfMaterial> materials = readGltfMaterials(desc.cage, warn, desc.uvSet);
     if (!object.cage.hasTexCoords()) return warnOfNoTexCoords(materials, desc, warn);
     if (wantsColors) takeOrWarn(warn, [&] { takeColors(object, materials, warn); });
     if (wantsNormals) takeOrWarn(warn, [&] { takeNormals(object, materials, desc, warn); });

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "displacement/layers.h"
 #include "frame/frame.h"
 #include "pose/pose.h"
 #include "scene/light_desc.h"
@@ -24,6 +25,16 @@ struct Distance {
     [[nodiscard]] double cageUnits(double diagonal) const { return isShare ? value * diagonal : value; }
 };
 
+/// A map that is added to the heights or vectors of an object.
+struct LayerDesc {
+    std::string path;
+    std::optional<double> mid, scale;
+    std::string channel;
+    std::optional<VectorOptions> vectors; ///< `path` is a vector map of this space, order and flips
+    std::string mask;                     ///< path of the map that it is multiplied with, or empty
+    MapPlacement placement;
+};
+
 /// A height map as HeightOptions describes it, or a height function; both empty where nothing displaces the surface.
 struct HeightDesc {
     std::string path;
@@ -34,6 +45,7 @@ struct HeightDesc {
     std::optional<Wrap> wrap; ///< default: repeat, with a warning where texture coordinates leave 0..1
     std::optional<MapFormat> format;
     std::optional<VectorOptions> vectors; ///< `path` is a vector map of this space, order and flips
+    std::vector<LayerDesc> layers;        ///< added to the map at `path`
     HeightSpace space = HeightSpace::absolute;
     Detail detail = Detail::displacement; ///< for verbs that draw pictures
 };
@@ -56,6 +68,8 @@ struct ObjectDesc {
     std::optional<int> isolation;           ///< default: neededIsolation()
     EndCapKind endCaps = EndCapKind::exact;
     std::optional<Distance> weld; ///< joins boundary vertices at most so far apart; default: vertices stay as they are
+    std::uint32_t uvSet = 0;      ///< texture coordinates of glTF files: TEXCOORD_n
+    MapPlacement placement;       ///< of all maps: it is applied to the texture coordinates of the cage
     HeightDesc height;
     MaterialDesc material;
     MotionDesc motion;

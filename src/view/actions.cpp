@@ -272,7 +272,7 @@ void Viewer::drop(const std::string& path) {
         object.height.function.clear(), object.height.functionBound.reset();
     } else if (extension == ".glsl") {
         object.height.function = path;
-        object.height.path.clear();
+        object.height.path.clear(), object.height.layers.clear();
     } else {
         state_.error = onOneLine(path + ": a cage, an environment (.hdr), a height map or a height function (.glsl) "
                                         "can be dropped");

@@ -64,6 +64,7 @@ void setObject(Options& options, const ObjectDesc& before, const ObjectDesc& now
     options.replace("--roughness", fmt::format("{}", before.material.roughness),
                     fmt::format("{}", now.material.roughness));
     // What needs an option that is gone.
+    if (now.height.path.empty()) options.remove("--layer");
     if (now.height.function.empty()) options.remove("--height-bound");
     if (now.motion.cachePath.empty()) options.remove("--cache-frames");
     if (now.motion.skinPath.empty()) options.remove("--clip"), options.remove("--bind-nearest");

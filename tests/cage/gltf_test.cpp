@@ -1,6 +1,7 @@
 // Cages from glTF files.
 #include <cmath>
 
+#include "cage/gltf.h"
 #include "gltf.h"
 #include "meshes.h"
 
@@ -97,6 +98,19 @@ TEST(GltfCage, hardEdgesAreNoSeams) {
     const int texCoords = file.add(std::vector<vec2>(24, vec2(0.25f, 0.5f)));
     file.attributes()["TEXCOORD_0"] = texCoords;
     EXPECT_EQ(summarize(readFileOf(file)).seamEdgeCount, 0u);
+}
+
+TEST(GltfCage, hasTheTexCoordsThatAreAskedFor) {
+    GltfFile file = splitCube();
+    const int first = file.add(std::vector<vec2>(24, vec2(0.25f, 0.5f)));
+    const int second = file.add(std::vector<vec2>(24, vec2(0.75f, 0.125f)));
+    file.attributes()["TEXCOORD_0"] = first, file.attributes()["TEXCOORD_1"] = second;
+    const TemporaryFolder folder;
+    putFile(folder / "a.gltf", file.gltf());
+    EXPECT_EQ(readGltfCage(folder / "a.gltf", warnOnStderr).texCoords.front(), vec2(0.25f, 0.5f));
+    EXPECT_EQ(readGltfCage(folder / "a.gltf", warnOnStderr, 1).texCoords.front(), vec2(0.75f, 0.875f));
+    expectFailure(Failure::input, {"a.gltf", "TEXCOORD_2"},
+                  [&] { (void)readGltfCage(folder / "a.gltf", warnOnStderr, 2); });
 }
 
 TEST(GltfCage, isTheSameFromTextFromBytesAndFromTwoFiles) {

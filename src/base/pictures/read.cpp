@@ -54,7 +54,10 @@ bool namesTiles(const std::string& path) {
 /// The file of a picture. Throws for a name that stands for several.
 PictureBytes bytesOfFile(const std::string& path) {
     if (namesTiles(path) && !std::filesystem::exists(path))
-        fail(Failure::usage, "{}: sets of tiles (UDIM) are not read yet; name the picture of one tile", path);
+        fail(Failure::usage,
+             "{}: a set of tiles is of maps over texture coordinates, not of single pictures; name the picture of one "
+             "tile",
+             path);
     return PictureBytes(path);
 }
 
