@@ -70,7 +70,9 @@ void checkUsage(const DoctorArgs& args) {
 
 /// The surface that the maps are for.
 LoadedObject loadSubject(const DoctorArgs& args) {
-    LoadedObject object = load(args.object, CageState::posed, makeWarn(args.isQuiet));
+    ObjectDesc bare = args.object; // without a map: the cage alone
+    bare.height.vectors.reset();
+    LoadedObject object = load(bare, CageState::posed, makeWarn(args.isQuiet));
     if (object.dense)
         fail(Failure::usage,
              "{}: heights displace a subdivision surface, and this is drawn as plain polygons; name --scheme catmark, "
@@ -93,6 +95,7 @@ int examine(const DoctorArgs& args) {
     // All maps are examined before anything is printed: a map that cannot be read is one line.
     const HeightDesc& height = args.object.height;
     DoctorOptions options{.height = {.mid = height.mid, .scale = height.scale, .channel = height.channel, .limits = {}},
+                          .vectors = height.vectors,
                           .namesWrap = height.wrap.has_value()};
     options.height.wrap = height.wrap.value_or(options.height.wrap);
     std::vector<Examination> examinations;
@@ -131,9 +134,12 @@ std::string describeKinds() {
 Run addDoctor(CLI::App& app) {
     auto args = std::make_shared<DoctorArgs>();
     app.add_option("cage", args->object.cage, "control cage: .obj .gltf .glb")->required()->option_text("CAGE");
-    app.add_option("maps", args->maps, "height maps: .exr .tif .png .hdr .jpg")->required()->option_text("MAP...");
+    app.add_option("maps", args->maps, "height maps, or with --vector-space vector maps: .exr .tif .png .hdr .jpg")
+        ->required()
+        ->option_text("MAP...");
     addSurface(app, args->object);
     addHeightValues(app, args->object.height);
+    addVectorKind(app, args->object.height);
     listIn("height", "WRAP",
            addEnum(app, "--wrap", args->object.height.wrap, kWraps,
                    "what lies outside of the map (default: repeat, and coordinates there are a finding)"));
@@ -152,7 +158,8 @@ Run addDoctor(CLI::App& app) {
                "Ends with exit code 6 when there is a fault; notes change no code.\n"
                "examples:\n"
                "  relief doctor cage.obj heights.exr --scale 0.2\n"
-               "  relief doctor cage.obj heights.tif --scale 0.2 --mid 0.5 -o findings.png");
+               "  relief doctor cage.obj heights.tif --scale 0.2 --mid 0.5 -o findings.png\n"
+               "  relief doctor cage.obj vectors.exr --vector-space tangent --vector-preset mudbox");
     return [args] { return examine(*args); };
 }
 

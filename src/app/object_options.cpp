@@ -7,6 +7,11 @@
 namespace relief::app {
 namespace {
 
+constexpr const char* kVectorGroup = "vector displacement";
+
+/// The options of the channels of vector maps, which need the option that says that there are vectors.
+void addVectorAxes(CLI::App& app, HeightDesc& height, CLI::Option* needed);
+
 CLI::Validator notNegative() {
     const auto check = [](const std::string& word) {
         return word.starts_with('-') ? fmt::format("{} is no channel; they count from 0", word) : std::string();
@@ -38,10 +43,20 @@ void addHeights(CLI::App& app, HeightDesc& height) {
            addEnum(app, "--map-format", height.format, kMapFormatChoices, "how the map is stored on the device"));
 }
 
+/// An option whose value is one of the words of a table.
+template <typename Table, typename Take>
+CLI::Option* addWords(CLI::App& app, const char* name, const Table& table, const char* help, const Take& take) {
+    const std::vector<WordHelp> words = listWords(table);
+    const auto set = [take, &table](const std::string& word) {
+        for (const auto& row : table)
+            if (row.word == word) take(row.value);
+    };
+    return app.add_option_function<std::string>(name, set, describeWords(help, words))->check(oneOf(words));
+}
+
 /// A vector map in place of a height map. Options are read in this order: the map, the space, the program's order and
 /// flips, then those that are named. They may be read without the map, before that is reported.
 void addVectors(CLI::App& app, HeightDesc& height) {
-    const char* group = "vector displacement";
     const auto setPath = [&height](const std::string& path) {
         height.path = path;
         height.vectors.emplace();
@@ -50,22 +65,20 @@ void addVectors(CLI::App& app, HeightDesc& height) {
         "--vector", setPath,
         "vector displacement map of three channels instead of a height map: .exr .tif .png .hdr .jpg; --scale, --mid, "
         "--channel (the first of the three), --wrap and --map-format are read as for heights");
-    listIn(group, "MAP", map->excludes(app.get_option("--height")));
-    const auto add = [&](CLI::Option* option, const char* value) { listIn(group, value, option->needs(map)); };
-    const auto addWords = [&](const char* name, const auto& table, const char* help, const auto& take) {
-        const std::vector<WordHelp> words = listWords(table);
-        const auto set = [take, &table](const std::string& word) {
-            for (const auto& row : table)
-                if (row.word == word) take(row.value);
-        };
-        return app.add_option_function<std::string>(name, set, describeWords(help, words))->check(oneOf(words));
+    listIn(kVectorGroup, "MAP", map->excludes(app.get_option("--height")));
+    CLI::Option* space = addWords(app, "--vector-space", kVectorSpaces,
+                                  "what the components are along (default: tangent)", [&height](VectorSpace word) {
+                                      if (height.vectors) height.vectors->space = word;
+                                  });
+    listIn(kVectorGroup, "SPACE", space->needs(map));
+    addVectorAxes(app, height, map);
+}
+
+void addVectorAxes(CLI::App& app, HeightDesc& height, CLI::Option* needed) {
+    const auto add = [&](CLI::Option* option, const char* value) {
+        listIn(kVectorGroup, value, option->needs(needed));
     };
-    add(addWords("--vector-space", kVectorSpaces, "what the components are along (default: tangent)",
-                 [&height](VectorSpace space) {
-                     if (height.vectors) height.vectors->space = space;
-                 }),
-        "SPACE");
-    add(addWords("--vector-preset", kVectorPresets, "order and signs of a program (default: none)",
+    add(addWords(app, "--vector-preset", kVectorPresets, "order and signs of a program (default: none)",
                  [&height](VectorPreset preset) {
                      if (height.vectors) applyPreset(*height.vectors, preset);
                  }),
@@ -159,6 +172,14 @@ void addSurface(CLI::App& app, ObjectDesc& object) {
     listIn("surface", "KIND",
            addEnum(app, "--end-caps", object.endCaps, kEndCaps, "what faces at extraordinary vertices are made of"));
     addWeld(app, object.weld);
+}
+
+void addVectorKind(CLI::App& app, HeightDesc& height) {
+    CLI::Option* space = addWords(app, "--vector-space", kVectorSpaces,
+                                  "the maps are vector maps, whose components are along this (default: height maps)",
+                                  [&height](VectorSpace word) { height.vectors.emplace().space = word; });
+    listIn(kVectorGroup, "SPACE", space);
+    addVectorAxes(app, height, space);
 }
 
 void addSurfaceOptions(CLI::App& app, ObjectDesc& object) {

@@ -19,6 +19,9 @@ void addHeightedSurface(CLI::App& app, ObjectDesc& object);
 void addHeightFunction(CLI::App& app, HeightDesc& height);
 /// Adds --scale, --mid and --channel: how the values of a height map are read.
 void addHeightValues(CLI::App& app, HeightDesc& height);
+/// Adds --vector-space and the order and signs of channels, for verbs whose maps are positionals: with a space they are
+/// vector maps.
+void addVectorKind(CLI::App& app, HeightDesc& height);
 /// Adds --time, for verbs that take one pose of an object that moves.
 void addTime(CLI::App& app, MotionDesc& motion);
 /// Adds --height-space, for verbs that show an object that moves.

@@ -32,7 +32,8 @@ bool repeatsWhole(std::span<const MapLayer> layers);
 /// one, over the unit squares of all sets. At its texel centres it is exact but for the rounding of floats; between
 /// them it is bilinear. Layers of the same size without a repeat are exact everywhere. A coarser one is cut at its own
 /// texels' centres, by at most 1/8 of its second difference there along each axis, and so is the product with a mask.
-/// Maps per face are added node by node of the finer one, which is exact.
+/// Maps per face are added node by node of the finer one, which is exact but for what lies beside an edge where a map
+/// changes its size: there the edge is the sum of its owner's.
 ///
 /// Throws Failure::usage for what cannot be added: maps per face and others, vectors of object space and of tangent
 /// space, vectors and sets of tiles, a set or a map per face that repeats; Failure::input for maps per face of

@@ -17,6 +17,7 @@ enum class FindingKind {
     voids,
     channel,
     flip,
+    axes,
     seam,
     outside,
     island,
@@ -33,6 +34,7 @@ inline constexpr Word<FindingKind> kFindingKinds[] = {
     {"voids", FindingKind::voids, "texels without a height"},
     {"channel", FindingKind::channel, "the file has several layers, and none is named"},
     {"flip", FindingKind::flip, "the map is mirrored or turned against the texture coordinates"},
+    {"axes", FindingKind::axes, "the channels of a vector map are in another order than is said"},
     {"seam", FindingKind::seam, "the two sides of a seam have different heights"},
     {"outside", FindingKind::outside, "texture coordinates leave the map"},
     {"island", FindingKind::island, "a part of the layout has no heights"},
@@ -87,7 +89,7 @@ struct DoctorSubject {
 /// A map and what is wrong with it.
 struct Examination {
     std::string path;
-    HeightMap map;                 ///< in the unit of positions
+    HeightMap map;                 ///< in the unit of positions; of vectors their lengths
     double bound = 0;              ///< largest |h|, cage units
     std::vector<Finding> findings; ///< in the order of FindingKind
     SeamReport seams;              ///< in the unit of positions
@@ -97,11 +99,13 @@ struct Examination {
 
 struct DoctorOptions {
     HeightOptions height;
+    std::optional<VectorOptions> vectors{}; ///< maps are vector maps of this space, order and flips, else height maps
     bool namesWrap = false; ///< the user has said how the map continues: coordinates outside of it are meant
 };
 
-/// Reads a map and examines its values, its layout on the surface and the surface that it makes.
-/// Throws as loadHeightMap does.
+/// Reads a map and examines its values, its layout on the surface and the surface that it makes. Of vector maps these
+/// are the midlevels of the components, their order, and seams, islands and folds by the lengths of the vectors.
+/// Throws as loadHeightMap and loadVectorMap do.
 Examination examineMap(const std::string& path, const DoctorOptions& options, const DoctorSubject& subject);
 
 /// Draws the layout over the heights: folds red, stretched texels orange, empty islands blue, seams whose sides

@@ -51,6 +51,13 @@ void examineOutside(const MapCase& map, Findings& findings) {
          .figure = most});
 }
 
+HeightMap loadVectors(const std::string& path, const DoctorOptions& options, const Warn& warn) {
+    VectorOptions own = *options.vectors;
+    own.mid = options.height.mid, own.scale = options.height.scale, own.channel = options.height.channel;
+    own.wrap = options.height.wrap, own.limits = options.height.limits;
+    return loadVectorMap(path, own, warn);
+}
+
 /// The channel as it is in the file, with its voids.
 HeightCensus takeCensus(const std::string& path, const ImageInfo& info, const HeightOptions& options) {
     HeightCensus census(info);
@@ -86,12 +93,12 @@ Examination examineMap(const std::string& path, const DoctorOptions& options, co
     // What loading warns of are findings, with their figures.
     Examination result{.path = path};
     const ImageInfo info = readImageInfo(path, options.height.limits);
-    result.map = loadHeightMap(path, options.height, [](const std::string&) {}).decoded;
+    const Warn ignore = [](const std::string&) {};
+    result.map =
+        options.vectors ? loadVectors(path, options, ignore) : loadHeightMap(path, options.height, ignore).decoded;
     if (result.map.addressing != Addressing::texture)
         fail(Failure::usage, "{}: one map over the unit square is examined; name the files of a set one by one", path);
-    if (result.map.addressing != Addressing::texture)
-        fail(Failure::usage, "{}: maps over one unit square are examined, no sets of tiles and no maps per face", path);
-    result.map.scale /= subject.unit;
+    scaleHeights(result.map, 1 / subject.unit);
     result.bound = result.map.heightBound() * subject.unit;
 
     // The texels that the surface shows: what lies between islands is no height, and empty islands have a finding of
@@ -111,17 +118,24 @@ Examination examineMap(const std::string& path, const DoctorOptions& options, co
     // Colors come before the midlevel and flips before seams: the former explain the latter.
     Findings& findings = result.findings;
     examineFile(map, path, takeCensus(path, info, options.height), findings);
-    examineSteps(map, findings);
-    examineColors(map, findings);
-    examineSigns(map, findings);
-    examineMidlevel(map, findings);
     result.seams = reportSeams(*subject.surface, *subject.reference, result.map);
-    examineFlips(map, result.seams, coverage, findings);
+    if (options.vectors) {
+        examineVectors(map, coverage, findings);
+    } else {
+        examineSteps(map, findings);
+        examineColors(map, findings);
+        examineSigns(map, findings);
+        examineMidlevel(map, findings);
+        examineFlips(map, result.seams, coverage, findings);
+    }
     examineSeams(map, result.seams, findings);
     examineOutside(map, findings);
     examineIslands(map, ranges, findings);
     examineStretch(map, findings);
-    examineFolds(map, findings);
+    if (options.vectors)
+        examineTurns(map, findings);
+    else
+        examineFolds(map, findings);
     std::ranges::stable_sort(findings, {}, &Finding::kind);
     return result;
 }

@@ -43,6 +43,16 @@ void eachPointIn(const std::array<dvec2, 4>& quad, const dvec2& lowest, const dv
 inline constexpr std::uint32_t kNoIsland = 0xffffffffu;
 std::vector<std::uint32_t> coverTexels(const SurfaceLayout& layout, int width, int height, Wrap wrap);
 
+/// The value that most of some values are near to, within a width, and their share.
+struct Peak {
+    double value = 0, share = 0;
+};
+Peak findPeak(std::span<const float> sorted, double width);
+inline constexpr double kPeakShare = 0.15; ///< of a flat part; waves spend up to a twentieth at their crests
+
+/// "face 3 of the cage at (s,t) = (0.1, 0.2)"
+std::string describeSpot(const MapCase& map, const SurfaceLocation& at);
+
 using Findings = std::vector<Finding>;
 
 // Of the values alone.
@@ -50,7 +60,11 @@ void examineSteps(const MapCase& map, Findings& findings);
 void examineColors(const MapCase& map, Findings& findings);
 void examineSigns(const MapCase& map, Findings& findings);
 void examineMidlevel(const MapCase& map, Findings& findings);
+/// Of vector maps: steps of 8 bits, midlevels of components, and components in another order.
+void examineVectors(const MapCase& map, std::span<const std::uint32_t> coverage, Findings& findings);
 // Of the values on the surface.
+/// Of vector maps: where the surface turns over, by computeFoldFactor().
+void examineTurns(const MapCase& map, Findings& findings);
 void examineFlips(const MapCase& map, const SeamReport& seams, std::span<const std::uint32_t> coverage,
                   Findings& findings);
 void examineSeams(const MapCase& map, const SeamReport& seams, Findings& findings);

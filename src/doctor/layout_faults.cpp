@@ -63,13 +63,13 @@ bool disagree(const SeamReport& seams, const HeightMap& map) {
     return range > 0 && (seams.max > kSeamMost * range || seams.mean > kSeamMean * range);
 }
 
+} // namespace
+
 std::string describeSpot(const MapCase& map, const SurfaceLocation& at) {
     const dvec2 st = map.subject.reference->texture(int(at.face), dvec2(at.uv)).st;
     return fmt::format("face {} of the cage at (s,t) = ({:.4g}, {:.4g})", map.subject.surface->faces[at.face].cageFace,
                        st.x, st.y);
 }
-
-} // namespace
 
 void examineFlips(const MapCase& map, const SeamReport& seams, std::span<const std::uint32_t> coverage,
                   Findings& findings) {

@@ -93,14 +93,6 @@ void examineSteps(const MapCase& map, Findings& findings) {
 
 // --- colors -------------------------------------------------------------------------------------------------------
 
-namespace {
-
-/// The value that most used texels are near to, and their share.
-struct Peak {
-    double value = 0, share = 0;
-};
-
-/// Values within a thousandth of the range are one.
 Peak findPeak(std::span<const float> sorted, double width) {
     Peak peak;
     std::size_t last = 0;
@@ -112,9 +104,10 @@ Peak findPeak(std::span<const float> sorted, double width) {
     return peak;
 }
 
-double peakWidth(const MapCase& map) { return std::max(0.001 * map.storedRange(), 1e-7); }
+namespace {
 
-constexpr double kPeakShare = 0.15; ///< of a flat part; waves spend up to a twentieth at their crests
+/// Values within a thousandth of the range are one.
+double peakWidth(const MapCase& map) { return std::max(0.001 * map.storedRange(), 1e-7); }
 
 bool isNear(double value, double code) { return std::abs(value - code) < 0.0015; }
 

@@ -167,6 +167,31 @@ TEST_F(DoctorOnMaps, findsMidlevels) {
                 examine(torus, writeFloat(changed(mapOf(96, 64, waves), [](double h) { return 0.4 + h; }))));
 }
 
+TEST_F(DoctorOnMaps, examinesVectors) {
+    const Image heights = mapOf(96, 96, bumps);
+    /// The heights in one of three channels, around a midlevel.
+    const auto vectorsIn = [&](int channel, float mid) {
+        Image image{.width = 96, .height = 96, .channels = 3, .texels = {}};
+        for (const float h : heights.texels)
+            for (int k = 0; k < 3; ++k) image.texels.push_back(mid + (k == channel ? h : 0));
+        return writeFloat(image);
+    };
+    const auto examined = [&](const std::string& path, const std::string& order) {
+        return examineMap(
+            path, {.height = {.scale = 1, .limits = {}}, .vectors = VectorOptions{.order = order, .limits = {}}},
+            torusPatient().subject());
+    };
+    const Examination good = examined(vectorsIn(2, 0), "xyz");
+    expectSilent(good);
+    EXPECT_EQ(listRendererSettings(good, 1)[2].value, "Tangent Space");
+    expectSilent(examined(vectorsIn(1, 0), "xzy"));
+    expectFound(FindingKind::axes, examined(vectorsIn(1, 0), "xyz"), false);
+    expectFound(FindingKind::midlevel, examined(vectorsIn(2, 0.5f), "xyz"));
+    const Examination steep = examineMap(
+        vectorsIn(2, 0), {.height = {.scale = 30, .limits = {}}, .vectors = VectorOptions{}}, torusPatient().subject());
+    expectFound(FindingKind::fold, steep, false);
+}
+
 TEST_F(DoctorOnMaps, findsSigns) {
     const Patient& torus = torusPatient();
     const Image wrapped = changed(mapOf(96, 64, waves), [](double h) { return h < 0 ? h + 65536.0 / 65535 : h; });
