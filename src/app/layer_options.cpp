@@ -69,7 +69,7 @@ LayerDesc parseLayer(const std::string& word) {
     for (const std::string& part : CLI::detail::split(word, ',')) {
         const std::size_t equals = part.find('=');
         const std::string key = part.substr(0, equals);
-        if (seen.empty() && std::ranges::find(kKeys, key) == std::end(kKeys)) { // names of files may hold commas
+        if (layer.path.empty() || (seen.empty() && equals == std::string::npos)) { // names of files may hold commas
             layer.path += (layer.path.empty() ? "" : ",") + part;
             continue;
         }

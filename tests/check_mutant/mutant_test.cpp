@@ -64,22 +64,18 @@ TEST(TileMutant, isFoundByTheComparisonOfHeights) {
     for (vec2& st : cage.texCoords) st.x *= 4; // islands cross three borders
     const Surface surface = buildSurface(cage, {.isolation = 2});
     const ReferenceSurface reference(cage, {.isolation = 2});
-    const HeightMap tiles = tilesOfWaves(), single = waves();
+    const HeightMap tiles = tilesOfWaves();
     Device device;
     SurfaceSampler sampler(device);
     const std::vector<SampleQuery> queries = sampleEverywhere(surface, 1000).queries;
-    const auto errorOf = [&](const HeightMap& map) {
-        const SurfaceModel model(device, {.surface = &surface, .cagePositions = cage.positions, .height = &map});
-        const std::vector<SampleResult> results = sampler.sample(model, queries);
-        double largest = 0;
-        for (std::size_t i = 0; i < queries.size(); ++i) {
-            const MapPlace place{.st = reference.texture(int(queries[i].face), dvec2(queries[i].uv)).st};
-            largest = std::max(largest, std::abs(sampleHeight(map, place).h - double(results[i].h)));
-        }
-        return largest;
-    };
-    EXPECT_GT(errorOf(tiles), 0.05) << "two tiles in each other's places";
-    EXPECT_LT(errorOf(single), 1e-4) << "of one map there is nothing to swap";
+    const SurfaceModel model(device, {.surface = &surface, .cagePositions = cage.positions, .height = &tiles});
+    const std::vector<SampleResult> results = sampler.sample(model, queries);
+    double largest = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const MapPlace place{.st = reference.texture(int(queries[i].face), dvec2(queries[i].uv)).st};
+        largest = std::max(largest, std::abs(sampleHeight(tiles, place).h - double(results[i].h)));
+    }
+    EXPECT_GT(largest, 0.05);
 }
 
 } // namespace
