@@ -18,6 +18,10 @@ std::uint32_t levelAsFine(std::uint32_t level, double own, double other, std::ui
 
 } // namespace
 
+bool hasOneSize(const HeightMap& set) {
+    return std::ranges::all_of(set.tiles, [&](const MapTile& tile) { return tile.size == set.tiles.front().size; });
+}
+
 std::uint32_t countLevels(const HeightMap& set, const MapTile& tile) {
     if (set.addressing == Addressing::faces) return std::uint32_t(std::max(tile.segments.x, tile.segments.y)) + 1;
     return std::min(std::uint32_t(std::bit_width(std::uint32_t(std::max(tile.size.x, tile.size.y)))), kMostMapLevels);
@@ -46,24 +50,24 @@ double TileLevels::Grid::bilinear(double x, double y) const {
                      std::lerp(double(at(i, below)), double(at(right, below)), x - i), y - j);
 }
 
-TileLevels::TileLevels(const HeightMap& set) : set_(set), tiles_(set.tiles.size()) {
+TileLevels::TileLevels(const HeightMap& set, std::uint32_t mostLevels) : set_(set), tiles_(set.tiles.size()) {
     if (set.addressing == Addressing::faces)
         addFaces();
     else
-        forEachAtOnce(set.tiles.size(), [&](std::size_t tile) { addUnitSquare(tile); });
+        forEachAtOnce(set.tiles.size(), [&](std::size_t tile) { addUnitSquare(tile, mostLevels); });
 }
 
 StoredLevel TileLevels::stored(std::size_t tile, std::uint32_t level) const {
     return set_.addressing == Addressing::faces ? storedFace(tile, level) : storedUnitSquare(tile, level);
 }
 
-void TileLevels::addUnitSquare(std::size_t tileIndex) {
+void TileLevels::addUnitSquare(std::size_t tileIndex, std::uint32_t mostLevels) {
     const MapTile& tile = set_.tiles[tileIndex];
     Grids& grids = tiles_[tileIndex];
     const int stride = tile.size.x + 2 * kTileApron;
     grids.emplace_back(tile.size, stride, &set_.texels[tile.first] + kTileApron * std::ptrdiff_t(stride) + kTileApron);
     // Each texel is the mean of four of the level before, or of what there is.
-    while (grids.size() < countLevels(set_, tile)) {
+    while (grids.size() < std::min(countLevels(set_, tile), mostLevels)) {
         const Grid& fine = grids.back();
         const ivec2 size = glm::max(fine.size / 2, ivec2(1)), last = fine.size - 1;
         std::vector<float> texels;
@@ -99,6 +103,20 @@ double TileLevels::beyondUnitSquare(std::size_t tile, std::uint32_t level, int c
                                          std::uint32_t(grids.size()))];
     const dvec2 within = st - dvec2(place);
     return grid.bilinear(within.x * grid.size.x - 0.5, (1 - within.y) * grid.size.y - 0.5);
+}
+
+void TileLevels::fillApron(std::size_t tile, std::span<float> texels) const {
+    const ivec2 size = set_.tiles[tile].size;
+    const int stride = size.x + 2 * kTileApron;
+    RELIEF_CHECK(texels.size() == std::size_t(stride) * std::size_t(size.y + 2 * kTileApron));
+    for (int y = -kTileApron; y < size.y + kTileApron; ++y) {
+        const bool isWithin = y >= 0 && y < size.y;
+        float* row = &texels[std::size_t(y + kTileApron) * std::size_t(stride)] + kTileApron;
+        for (int x = -kTileApron; x < size.x + kTileApron; ++x) {
+            if (isWithin && x == 0) x = size.x; // what lies between is there
+            row[x] = float(beyondUnitSquare(tile, 0, x, y));
+        }
+    }
 }
 
 StoredLevel TileLevels::storedUnitSquare(std::size_t tile, std::uint32_t level) const {

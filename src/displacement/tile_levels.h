@@ -17,10 +17,13 @@ struct StoredLevel {
 /// The levels of all tiles of a set, computed once.
 class TileLevels {
 public:
-    /// The set has to outlive it.
-    explicit TileLevels(const HeightMap& set);
+    /// The set has to outlive it. Of unit squares it computes no more than `mostLevels`.
+    explicit TileLevels(const HeightMap& set, std::uint32_t mostLevels = kMostMapLevels);
     /// The level of a tile, with what lookups meet beyond its border.
     [[nodiscard]] StoredLevel stored(std::size_t tile, std::uint32_t level) const;
+    /// Writes what lies beyond the border of a unit square around `texels`, its level 0 as it is stored. What lies
+    /// within is not written, and nothing else is read: all tiles may be filled at once.
+    void fillApron(std::size_t tile, std::span<float> texels) const;
 
 private:
     /// A level without its apron.
@@ -39,7 +42,7 @@ private:
     };
     using Grids = std::vector<Grid>; ///< per level
 
-    void addUnitSquare(std::size_t tile);
+    void addUnitSquare(std::size_t tile, std::uint32_t mostLevels);
     void addFaces();
     [[nodiscard]] StoredLevel storedUnitSquare(std::size_t tile, std::uint32_t level) const;
     [[nodiscard]] double beyondUnitSquare(std::size_t tile, std::uint32_t level, int column, int row) const;
@@ -54,6 +57,9 @@ private:
     const HeightMap& set_;
     std::vector<Grids> tiles_;
 };
+
+/// Whether all tiles of a set have as many texels.
+bool hasOneSize(const HeightMap& set);
 
 /// Levels that a tile has, and how large one is stored.
 std::uint32_t countLevels(const HeightMap& set, const MapTile& tile);

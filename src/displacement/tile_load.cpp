@@ -3,6 +3,7 @@
 #include <set>
 
 #include "displacement/parallel.h"
+#include "displacement/tile_levels.h"
 #include "displacement/tile_set.h"
 #include "displacement/voids.h"
 
@@ -90,7 +91,7 @@ EncodedMap loadTileSet(const std::string& path, const HeightOptions& options, co
     finishTiles(set);
     if (options.format) return encode(set, *options.format);
     const MapEncoding encoding{.format = format, .blocks = {}};
-    roundTo(encoding, set.texels); // aprons between tiles of different sizes
+    if (!hasOneSize(set)) roundTiles(set, encoding); // aprons hold numbers between texels
     return {std::move(set), encoding};
 }
 

@@ -68,9 +68,26 @@ void copyTile(std::span<const float> texels, HeightMap& set, const MapTile& tile
                     &set.texels[tile.first] + std::ptrdiff_t(y + apron) * stride + apron);
 }
 
+namespace {
+
+/// The texels of a tile as they are stored, its apron included.
+std::span<float> texelsOf(HeightMap& set, std::size_t tile) {
+    const ivec2 size = storedSize(set, set.tiles[tile], 0);
+    return std::span(set.texels).subspan(set.tiles[tile].first, std::size_t(size.x) * std::size_t(size.y));
+}
+
+} // namespace
+
 void finishTiles(HeightMap& set) {
+    if (set.addressing == Addressing::tiles) {
+        // Tiles of one size show each other's texels; others are read on the level that is as fine.
+        const TileLevels levels(set, hasOneSize(set) ? 1 : kMostMapLevels);
+        forEachAtOnce(set.tiles.size(), [&](std::size_t t) { levels.fillApron(t, texelsOf(set, t)); });
+        findRange(set);
+        return;
+    }
     const TileLevels levels(set);
-    std::vector<float> texels = set.texels; // what lies beyond a border is read from the others
+    std::vector<float> texels = set.texels; // edges are read as they were
     forEachAtOnce(set.tiles.size(), [&](std::size_t t) {
         std::ranges::copy(levels.stored(t, 0).texels, texels.begin() + std::ptrdiff_t(set.tiles[t].first));
     });
@@ -79,18 +96,28 @@ void finishTiles(HeightMap& set) {
 }
 
 void findRange(HeightMap& map) {
-    map.lowest = INFINITY, map.highest = -INFINITY;
-    const auto add = [&](std::span<const float> texels) {
+    std::vector<vec2> ranges(std::max<std::size_t>(map.tiles.size(), 1), vec2(INFINITY, -INFINITY));
+    const auto add = [](vec2& range, std::span<const float> texels) {
         const auto [lowest, highest] = std::ranges::minmax(texels);
-        map.lowest = std::min(map.lowest, lowest), map.highest = std::max(map.highest, highest);
+        range = {std::min(range.x, lowest), std::max(range.y, highest)};
     };
-    if (map.tiles.empty()) add(map.texels);
+    if (map.tiles.empty()) add(ranges.front(), map.texels);
     const int apron = apronOf(map.addressing);
-    for (const MapTile& tile : map.tiles)
+    forEachAtOnce(map.tiles.size(), [&](std::size_t t) {
+        const MapTile& tile = map.tiles[t];
         for (int y = 0; y < tile.size.y; ++y) {
             const std::size_t row = std::size_t(y + apron) * std::size_t(tile.size.x + 2 * apron);
-            add(std::span(map.texels).subspan(tile.first + row + std::size_t(apron), std::size_t(tile.size.x)));
+            add(ranges[t],
+                std::span(map.texels).subspan(tile.first + row + std::size_t(apron), std::size_t(tile.size.x)));
         }
+    });
+    map.lowest = INFINITY, map.highest = -INFINITY;
+    for (const vec2& range : ranges)
+        map.lowest = std::min(map.lowest, range.x), map.highest = std::max(map.highest, range.y);
+}
+
+void roundTiles(HeightMap& set, const MapEncoding& encoding) {
+    forEachAtOnce(set.tiles.size(), [&](std::size_t t) { roundTo(encoding, texelsOf(set, t)); });
 }
 
 const MapTile* findTileAt(std::span<const MapTile> tiles, const ivec2& place) {

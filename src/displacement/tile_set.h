@@ -14,6 +14,9 @@ void copyTile(std::span<const float> texels, HeightMap& set, const MapTile& tile
 /// Fills in aprons, and the edges and corners of faces, by what the tiles hold, and finds the range of values.
 void finishTiles(HeightMap& set);
 
+/// roundTo() of all tiles.
+void roundTiles(HeightMap& set, const MapEncoding& encoding);
+
 // --- loading ------------------------------------------------------------------------------------------------------
 
 /// What loadHeightMap() does with one file.
