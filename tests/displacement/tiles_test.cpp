@@ -109,6 +109,23 @@ TEST(FaceFiles, keepAllHeights) {
     EXPECT_NE(hashTopology(torusWithSeams(4, 6)), map.topology);
 }
 
+TEST(FaceFiles, thatAreWrongAreRefused) {
+    const TemporaryFolder folder;
+    // Two faces of 2 x 2 nodes, which a picture of 3 x 4 holds one above the other.
+    const auto refuse = [&](int height, int channels, const char* faces, float value, std::vector<std::string> words) {
+        words.emplace_back("f.exr");
+        writeImage(folder / "f.exr",
+                   {3, height, channels, std::vector<float>(std::size_t(3 * height * channels), value)},
+                   SampleType::real, ImageAttributes{{"relief:faces", faces}, {"relief:topology", "0123"}});
+        expectFailure(Failure::input, words, [&] { (void)loadHeightMap(folder / "f.exr", {.limits = {}}); });
+    };
+    refuse(4, 2, "0000", 0, {"one channel", "2"});
+    refuse(5, 1, "0000", 0, {"3 x 5", "resized"});
+    refuse(4, 1, "000", 0, {"header"});
+    refuse(4, 1, "00x0", 0, {"header"});
+    refuse(4, 1, "0000", NAN, {"column 0, row 0", "nan"});
+}
+
 // --- lookups -----------------------------------------------------------------------------------------------------
 
 TEST(Tiles, areContinuousAcrossBordersOfTilesOfOneSize) {
