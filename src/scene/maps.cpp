@@ -84,6 +84,9 @@ namespace {
 /// Reads one map of an object, heights or vectors, which have their own encodings.
 EncodedMap readHeights(const HeightDesc& height, const LayerDesc& map, const Warn& warn) {
     if (map.vectors) {
+        if (findTilePattern(map.path))
+            fail(Failure::usage, "{}: a vector map is one file; sets of tiles hold heights, colors or normals",
+                 map.path);
         VectorOptions options = *map.vectors;
         options.mid = map.mid, options.scale = map.scale, options.channel = map.channel;
         options.format = height.format, options.wrap = height.wrap.value_or(options.wrap);

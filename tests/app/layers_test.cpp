@@ -83,6 +83,7 @@ TEST_F(LayerOption, refusesWhatMakesNoSense) {
     refused({"--height", a, "--layer", folder / "none.exr"}, Failure::file, {"none.exr"});
     refused({"--height", a, "--map-repeat", "0,1"}, Failure::usage, {"--map-repeat"});
     refused({"--height", folder / "t.<UDIM>.exr", "--map-repeat", "2,2"}, Failure::usage, {"<UDIM>", "--map-repeat"});
+    refused({"--vector", folder / "t.<UDIM>.exr"}, Failure::usage, {"<UDIM>", "one file"});
     refused({"--height", a, "--uv-set", "1"}, Failure::usage, {"--uv-set", ".obj"});
     refused({"--environment", folder / "t.<UDIM>.exr"}, Failure::usage, {"<UDIM>", "one tile"});
     EXPECT_FALSE(std::filesystem::exists(out));
