@@ -74,8 +74,8 @@ void examineFolds(const MapCase& map, Findings& findings);
 
 /// How a texel lies on the surface at a cell: its longest and shortest extent, in units of positions.
 dvec2 texelExtents(const LayoutCell& cell, const HeightMap& map);
-/// The smaller 1 + h kappa in the centre of a cell; 1 where nothing is known of the curvature.
-double foldFactorOf(const LayoutCell& cell, const HeightMap& map);
+/// The smaller 1 + h kappa in the centre of a cell, of vectors computeFoldFactor(); 1 where nothing is known of it.
+double foldFactorOf(const LayoutCell& cell, const HeightMap& map, const ReferenceSurface& reference);
 /// Whether a texel is so much longer on the surface than the usual one that its heights smear.
 struct StretchLimit {
     double longest = INFINITY; ///< units of positions

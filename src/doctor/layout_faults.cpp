@@ -230,7 +230,11 @@ void examineStretch(const MapCase& map, Findings& findings) {
 
 // --- folds --------------------------------------------------------------------------------------------------------
 
-double foldFactorOf(const LayoutCell& cell, const HeightMap& map) {
+double foldFactorOf(const LayoutCell& cell, const HeightMap& map, const ReferenceSurface& reference) {
+    if (map.vectors) {
+        const double turned = computeFoldFactor(displacedFrame(reference, &map, int(cell.at.face), dvec2(cell.at.uv)));
+        return std::isfinite(turned) ? turned : 1;
+    }
     if (!cell.curvature) return 1;
     const double h = sampleHeight(map, cell.st).h;
     const double factor = 1 + std::min(h * cell.curvature->lowest, h * cell.curvature->highest);
@@ -242,7 +246,7 @@ void examineFolds(const MapCase& map, Findings& findings) {
     double area = 0, folded = 0, lowest = 1;
     const LayoutCell* at = nullptr;
     for (const LayoutCell& cell : layout.cells) {
-        const double factor = foldFactorOf(cell, map.map);
+        const double factor = foldFactorOf(cell, map.map, *map.subject.reference);
         area += cell.area;
         if (factor <= 0) folded += cell.area;
         if (factor < lowest) lowest = factor, at = &cell;

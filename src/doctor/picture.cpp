@@ -92,7 +92,7 @@ void drawCells(LayoutCanvas& canvas, const HeightMap& map, const DoctorSubject& 
     const StretchLimit limit = computeStretchLimit(layout, map);
     const bool hasIslands = layout.islandFaces.size() > 1;
     for (const LayoutCell& cell : layout.cells) {
-        const bool isFolded = foldFactorOf(cell, map) <= 0,
+        const bool isFolded = foldFactorOf(cell, map, *subject.reference) <= 0,
                    isEmpty = hasIslands && isEmptyIsland(ranges[cell.island], map);
         const bool isStretched = limit.isExceededBy(texelExtents(cell, map));
         if (!isFolded && !isEmpty && !isStretched) continue;

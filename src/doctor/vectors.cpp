@@ -76,11 +76,8 @@ void examineTurns(const MapCase& map, Findings& findings) {
     double area = 0, turned = 0, lowest = 1;
     const LayoutCell* at = nullptr;
     for (const LayoutCell& cell : map.subject.layout->cells) {
-        const DisplacedFrame frame =
-            displacedFrame(*map.subject.reference, &map.map, int(cell.at.face), dvec2(cell.at.uv));
-        const double factor = computeFoldFactor(frame);
+        const double factor = foldFactorOf(cell, map.map, *map.subject.reference);
         area += cell.area;
-        if (!std::isfinite(factor)) continue;
         if (factor <= 0) turned += cell.area;
         if (factor < lowest) lowest = factor, at = &cell;
     }

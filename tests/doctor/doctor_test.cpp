@@ -190,6 +190,14 @@ TEST_F(DoctorOnMaps, examinesVectors) {
     const Examination steep = examineMap(
         vectorsIn(2, 0), {.height = {.scale = 30, .limits = {}}, .vectors = VectorOptions{}}, torusPatient().subject());
     expectFound(FindingKind::fold, steep, false);
+    const auto countRed = [](const Image& picture) {
+        int count = 0;
+        for (int y = 0; y < 128; ++y) // above the legend
+            for (int x = 0; x < 128; ++x) count += picture.at(x, y)[0] > picture.at(x, y)[1] + 0.3f ? 1 : 0;
+        return count;
+    };
+    EXPECT_EQ(countRed(drawFindings(good, torusPatient().subject(), 128)), 0);
+    EXPECT_GT(countRed(drawFindings(steep, torusPatient().subject(), 128)), 10);
 }
 
 TEST_F(DoctorOnMaps, findsSigns) {
