@@ -302,15 +302,14 @@ Run addInfo(CLI::App& app) {
                  "list the Vulkan devices of this machine: the default --path on each, and what each cannot do");
     app.add_flag("--json", args->isJson, "print JSON on stdout");
     app.add_flag("-q,--quiet", args->isQuiet, "print no warnings");
-    app.footer("With --height, --vector or --height-function, the report of a cage says how far the heights on the two "
-               "sides of "
-               "its edges\n"
-               "differ.\n"
-               "examples:\n"
-               "  relief info cage.obj heights.exr\n"
-               "  relief info cage.obj --height heights.exr --scale 0.2\n"
-               "  relief info cage.obj --height-function golf\n"
-               "  relief info --devices");
+    app.footer(
+        "With --height, --vector or --height-function, the report of a cage says how far the heights on the two\n"
+        "sides of its edges differ.\n"
+        "examples:\n"
+        "  relief info cage.obj heights.exr\n"
+        "  relief info cage.obj --height heights.exr --scale 0.2\n"
+        "  relief info cage.obj --height-function golf\n"
+        "  relief info --devices");
     return [args] { return info(*args); };
 }
 
