@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "displacement/layers.h"
 #include "frame/frame.h"
 #include "pose/pose.h"
+#include "scene/layer_desc.h"
 #include "scene/light_desc.h"
 #include "scene/words.h"
 
@@ -23,16 +23,6 @@ struct Distance {
     bool isShare = false;
 
     [[nodiscard]] double cageUnits(double diagonal) const { return isShare ? value * diagonal : value; }
-};
-
-/// A map that is added to the heights or vectors of an object.
-struct LayerDesc {
-    std::string path;
-    std::optional<double> mid, scale;
-    std::string channel;
-    std::optional<VectorOptions> vectors; ///< `path` is a vector map of this space, order and flips
-    std::string mask;                     ///< path of the map that it is multiplied with, or empty
-    MapPlacement placement;
 };
 
 /// A height map as HeightOptions describes it, or a height function; both empty where nothing displaces the surface.
@@ -145,7 +135,8 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn);
 /// Loads the object and the environment of a scene. Warns of subdivision tags on polygons that are drawn themselves.
 LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
 
-/// Frees what the device holds by now: the surface's tables, maps, textures, dense polygons. The cage and its motion stay.
+/// Frees what the device holds by now: the surface's tables, maps, textures, dense polygons. The cage and its motion
+/// stay.
 void freeHostCopies(LoadedScene& scene);
 
 /// Joins boundary vertices of a cage that nothing moves. Throws Failure::usage when no face is left.
