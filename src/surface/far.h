@@ -124,6 +124,11 @@ inline constexpr int kMostCapFaces = 64;
 /// Faces around a vertex at all.
 inline constexpr int kMostRingFaces = 1000;
 
+/// Some semi-sharp edge or vertex is sharper than there are levels.
+bool hasFiniteSharpnessPast(const Cage& cage, int isolation);
+/// Some vertex of more than kMostCapFaces faces has sharp edges, is sharp or lies at a boundary.
+bool hasLargeSharpVertex(const Cage& cage);
+
 // The steps of buildSurface, each fills its own part of the surface; the last one uses the tables up.
 void fillPatches(Surface& surface, const FarTables& tables);
 void fillOwners(Surface& surface, const FarTables& tables, const Cage& cage);
