@@ -35,8 +35,7 @@ bool hasFiniteSharpnessPast(const Cage& cage, int isolation) {
 bool hasLargeSharpVertex(const Cage& cage) {
     const std::vector<int> faceCounts = countFaces(cage);
     const auto isLarge = [&](std::uint32_t vertex) { return faceCounts[vertex] > kMostCapFaces; };
-    if (std::ranges::any_of(cage.creaseEdges, isLarge) || std::ranges::any_of(cage.sharpVertices, isLarge))
-        return true;
+    if (std::ranges::any_of(cage.creaseEdges, isLarge) || std::ranges::any_of(cage.sharpVertices, isLarge)) return true;
     // Around a vertex inside the surface as many edges arrive as leave, at the same vertices.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> leaving, arriving;
     std::size_t first = 0;

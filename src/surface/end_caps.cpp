@@ -17,7 +17,7 @@ struct FaceCorner {
 
 /// The faces around a vertex between two sharp edges, or all of them, counter-clockwise.
 struct Sector {
-    CapPattern pattern; ///< `face` is the one that was asked for
+    CapPattern pattern;            ///< `face` is the one that was asked for
     std::vector<FaceCorner> faces; ///< around a smooth vertex from the one that was asked for on
 
     [[nodiscard]] bool isRegularInside() const {
@@ -388,7 +388,8 @@ private:
         return cap;
     }
 
-    /// Means are one per vertex, in the order of the faces around whichever cap comes first; tangents are the cap's own.
+    /// Means are one per vertex, in the order of the faces around whichever cap comes first; tangents are the cap's
+    /// own.
     template <typename PointAt>
     void addRingSums(EndCap& cap, const CapWalker& found, const PointAt& pointAt, Sums& sums) {
         std::vector<int> ring;
@@ -424,7 +425,8 @@ private:
     std::vector<int> firstPoints_, firstTexPoints_; ///< per level
     std::map<CapPattern, std::uint32_t> patterns_;
     std::map<int, std::uint32_t> limits_, texLimits_; ///< by the vertex's point
-    std::map<std::pair<const void*, int>, int> means_; ///< the first mean of a ring, by the array of sums and the vertex
+    std::map<std::pair<const void*, int>, int>
+        means_; ///< the first mean of a ring, by the array of sums and the vertex
 };
 
 } // namespace

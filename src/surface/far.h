@@ -119,7 +119,8 @@ dvec2 patchCenter(const Far::PatchParam& param, int sideCount);
 void findEndCaps(FarTables& tables, int levelCount);
 
 /// Faces around a vertex whose points count one by one. Evaluations would take too long with more, and tables too much
-/// where each face has its own: between sharp edges 300 kB per face for 64 of them. Smooth vertices of more have windows.
+/// where each face has its own: between sharp edges 300 kB per face for 64 of them. Smooth vertices of more have
+/// windows.
 inline constexpr int kMostCapFaces = 64;
 /// Faces around a vertex at all.
 inline constexpr int kMostRingFaces = 1000;

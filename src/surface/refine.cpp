@@ -178,6 +178,21 @@ std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme schem
     return refiner;
 }
 
+namespace {
+
+/// Six patches per semi-sharp edge of the last level, 250 bytes each: 100 MB. More levels double them.
+constexpr double kMostSemiSharpEdges = 65'536;
+
+/// Semi-sharp edges of the last level that is refined for them.
+double countEdgesAfter(const Cage& cage, int levels) {
+    double count = 0;
+    for (const float s : cage.creaseSharpness)
+        if (s < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE) count += std::exp2(std::min(std::ceil(s), float(levels)));
+    return count;
+}
+
+} // namespace
+
 int neededIsolation(const Cage& cage, EndCapKind endCaps) {
     constexpr int kSeparating = 2, kApproximating = 6;
     if (endCaps == EndCapKind::gregory) return kApproximating;
@@ -186,7 +201,8 @@ int neededIsolation(const Cage& cage, EndCapKind endCaps) {
     for (const auto* sharpnesses : {&cage.creaseSharpness, &cage.vertexSharpness})
         for (const float s : *sharpnesses)
             if (s < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE) sharpest = std::max(sharpest, s);
-    return std::clamp(int(std::ceil(sharpest)), kSeparating, kApproximating);
+    const int levels = std::max(int(std::ceil(sharpest)), kSeparating);
+    return levels > kApproximating && countEdgesAfter(cage, levels) > kMostSemiSharpEdges ? kApproximating : levels;
 }
 
 FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options, int capLevels) {

@@ -14,13 +14,15 @@ enum class Scheme { catmark, loop, bilinear };
 
 /// What stands for the surface in faces at extraordinary vertices.
 enum class EndCapKind {
-    exact,  ///< the limit surface; Gregory patches where rules are semi-sharp or more than 64 faces lie between sharp edges
+    exact,  ///< the limit surface; Gregory patches where rules are semi-sharp or more than 64 faces lie between sharp
+            ///< edges
     gregory ///< OpenSubdiv's patches, which approximate it
 };
 
 /// Levels of adaptive refinement that a cage needs: 2 separate extraordinary vertices from each other, semi-sharp
-/// creases and vertices need as many as their sharpness, of which 6 are made. 6 with Gregory patches, which only get
-/// nearer to the surface with each level, and where exact end caps would have more than 64 faces between sharp edges.
+/// creases and vertices need as many as their sharpness; where tables would grow past 100 MB for these, 6 at most. 6
+/// with Gregory patches, which only get nearer to the surface with each level, and where exact end caps would have more
+/// than 64 faces between sharp edges.
 int neededIsolation(const Cage& cage, EndCapKind endCaps);
 
 struct SurfaceOptions {
