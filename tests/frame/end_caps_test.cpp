@@ -179,7 +179,7 @@ TEST_F(EndCaps, haveTheNormalsOfTheDisplacedSurface) {
             cages.push_back({file, readCage(folder + "/" + file)});
     for (const NamedCage& named : cages) {
         SCOPED_TRACE(named.name);
-        const NormalErrors errors = normalErrors(named.cage, 150);
+        const NormalErrors errors = normalErrors(named.cage, 50);
         const double rms = std::sqrt(errors.squares / double(errors.count));
         EXPECT_LE(rms, 0.05);
         EXPECT_LE(errors.worst, 1);
