@@ -23,7 +23,7 @@ std::vector<SampleQuery> queriesAtCorners(const Surface& surface, std::uint32_t 
             const dvec2 next = sidePoint(surface.sideCount, corner, 1) - at;
             const dvec2 previous =
                 sidePoint(surface.sideCount, (corner + surface.sideCount - 1) % surface.sideCount, 0) - at;
-            for (int k = 2; k <= 20; k += 3)
+            for (int k = 2 + (int(face) + corner) % 3; k <= 20; k += 3) // on all levels of tables
                 queries.push_back({face, vec2(at + std::ldexp(1.0, -k) * (double(unit(random)) * next +
                                                                           double(unit(random)) * previous))});
         }
@@ -39,9 +39,9 @@ struct CapErrors {
     double point = 0, tangent = 0, degrees = 0;
 };
 
-/// Of the tables and the reference of a cage, moved to `positions`.
-CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options, const std::vector<vec3>& positions) {
-    const Surface surface = buildSurface(cage, options);
+/// Of a surface and the reference of its cage, moved to `positions`.
+CapErrors errorsAtCorners(const Surface& surface, const Cage& cage, const SurfaceOptions& options,
+                          const std::vector<vec3>& positions) {
     ReferenceSurface reference(cage, options);
     reference.pose(positions);
     const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions});
@@ -61,6 +61,10 @@ CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options, const
         if (sine > 0.05) errors.degrees = std::max(errors.degrees, degreesBetween(glm::cross(f.pu, f.pv), dvec3(r.n)));
     }
     return errors;
+}
+
+CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options, const std::vector<vec3>& positions) {
+    return errorsAtCorners(buildSurface(cage, options), cage, options, positions);
 }
 
 class EndCaps : public OnDevice {};
@@ -114,6 +118,27 @@ TEST_F(EndCaps, areExactInAnyPose) {
         SCOPED_TRACE(pose);
         expectExact(errorsAtCorners(cage, {.isolation = 2}, positions));
     }
+}
+
+// Tests of the tests: one weight, one level's power of the matrix, the corner that one cap is turned to.
+TEST_F(EndCaps, withABrokenTableAreSeen) {
+    const Cage cage = poles(5);
+    const SurfaceOptions options{.isolation = 2};
+    const Surface whole = buildSurface(cage, options);
+    const CapTable table = whole.capTables.at(0);
+    const auto levelAt = [&](Surface& surface, int level) {
+        return surface.capWeights.begin() + table.firstWeight + std::ptrdiff_t(level - 1) * table.pointCount * 24;
+    };
+    Surface weight = whole, power = whole, turned = whole;
+    *(levelAt(weight, 5) + 3 * 24 + 10) += 1e-4F;
+    std::copy_n(levelAt(power, 6), table.pointCount * 24, levelAt(power, 5));
+    for (Patch& patch : turned.patches)
+        if (patch.type == kPatchExactQuad) patch.cap ^= 1;
+    for (const Surface* surface : {&weight, &power, &turned}) {
+        const CapErrors errors = errorsAtCorners(*surface, cage, options, cage.positions);
+        EXPECT_GT(std::max(errors.point, 0.1 * errors.tangent), 1e-6);
+    }
+    expectExact(errorsAtCorners(whole, cage, options, cage.positions));
 }
 
 /// The displaced surface as doubles and the height function itself have it.
