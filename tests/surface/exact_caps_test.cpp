@@ -82,7 +82,7 @@ TEST(ExactCaps, AreTheLimitSurfaceAsNearToTheVertexAsPointsGo) {
 // On the same level as the surface's own depth nothing of the oracle cancels: tangents and second derivatives are
 // exact.
 TEST(ExactCaps, HaveExactDerivatives) {
-    for (const int valence : {3, 5, 12, 31, 64, 65, 100, 300}) {
+    for (const int valence : {3, 5, 12, 31, 64, 150}) {
         const Family family{"poles", poles(valence)};
         const Errors errors = errorsAround(family, std::uint32_t(2 * valence), 8);
         EXPECT_EQ(errors.approximate, 0) << valence;
@@ -106,6 +106,15 @@ Cage dartPoles(std::uint32_t n) {
     const std::ptrdiff_t face = at / 4 * 4;
     test::addCrease(cage, 2 * n, cage.corners[face + (at - face + 1) % 4], 10);
     return cage;
+}
+
+// What counts one by one in a face of a large vertex is enough on all levels.
+TEST(ExactCaps, AreExactAroundVerticesOfVeryManyFaces) {
+    const Errors errors = errorsAround({"poles", poles(95)}, 2 * 95, 18);
+    EXPECT_EQ(errors.approximate, 0);
+    EXPECT_LE(errors.point, 1e-14);
+    EXPECT_LE(errors.tangent, 1e-5);
+    EXPECT_LE(errors.degrees, 2e-3);
 }
 
 // Tangents vanish there twice as fast as distances do, and normals tilt to and fro.
@@ -134,7 +143,7 @@ TEST(ExactCaps, CoverAllFacesButSemiSharpOnesAndThoseBetweenVeryManyFaces) {
     EXPECT_EQ(countApproximate(poles(64), {.isolation = 2}), 0u);
     EXPECT_EQ(countApproximate(poles(65), {.isolation = 2}), 0u);
     EXPECT_EQ(countApproximate(poles(65), {.isolation = 1}), 0u);
-    EXPECT_EQ(countApproximate(dartPoles(64), {.isolation = 2}), 0u);
+    EXPECT_EQ(countApproximate(dartPoles(9), {.isolation = 2}), 0u);
     EXPECT_EQ(countApproximate(dartPoles(65), {.isolation = 2}), 65u);
     EXPECT_EQ(countApproximate(prism(4), {.isolation = 0}), 6u);
     EXPECT_EQ(countApproximate(withCreases(prism(4), top, 2), {.isolation = 2}), 0u);
