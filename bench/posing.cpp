@@ -55,9 +55,10 @@ Cage repeatFaces(const Cage& cage, std::uint32_t count) {
     return all;
 }
 
-/// Prints one line for a cage. Throws Failure::input where OpenSubdiv cannot have its stencils.
-void benchCage(Device& device, const std::string& name, const Cage& cage, int isolation) {
-    const Surface surface = buildSurface(cage, {.isolation = isolation});
+/// Prints one line for a cage; returns the device's milliseconds. Throws Failure::input where OpenSubdiv cannot have
+/// its stencils.
+double benchCage(Device& device, const std::string& name, const Cage& cage, const SurfaceOptions& options) {
+    const Surface surface = buildSurface(cage, options);
     if (surface.stencils.sharedRowCount > 0)
         fail(Failure::input, "{}: a vertex or face has too many neighbours for OpenSubdiv's stencils", name);
     // The same rows for both sides.
@@ -83,10 +84,11 @@ void benchCage(Device& device, const std::string& name, const Cage& cage, int is
     std::cout << fmt::format(
         "posing: {:36} {:7} rows of {:4.1f} weights: device {:6.2f} ms ({:6.1f} M/s)  {:4.2f} x the "
         "faster of CpuEvaluator ({:5.1f} M/s) and OmpEvaluator ({:5.1f} M/s); {} uploaded\n",
-        fmt::format("{}, isolation {}", name, isolation), surface.stencils.rowCount(),
+        fmt::format("{}, isolation {}", name, options.isolation), surface.stencils.rowCount(),
         double(surface.stencils.indices.size()) / double(surface.stencils.rowCount()), computeMedian(ours),
         rows / computeMedian(ours), best / computeMedian(ours), rows / computeMedian(cpu), rows / computeMedian(omp),
         humanBytes(poser.stats().uploadedBytes));
+    return computeMedian(ours);
 }
 
 } // namespace
@@ -98,10 +100,15 @@ void benchPosing() {
     const bool isThere = std::filesystem::exists(path);
     const std::string name = isThere ? "bigguy" : "octopus";
     const Cage cage = readCage(isThere ? path : RELIEF_SOURCE "/meshes/octopus.obj");
-    for (const int isolation : {3, 6}) benchCage(device, name, cage, isolation);
+    // The same surface, exact with few points and approximate with many.
+    const double exact = benchCage(device, name, cage, {.isolation = neededIsolation(cage, EndCapKind::exact)});
+    const double gregory =
+        benchCage(device, name + ", Gregory", cage, {.isolation = 6, .endCaps = EndCapKind::gregory});
+    std::cout << fmt::format("posing: the surface of {} in {:.2f} of the time that Gregory patches take\n", name,
+                             exact / gregory);
     const auto copies = std::uint32_t(20'000 / cage.faceCount() + 1);
     const Cage large = repeatFaces(cage, copies);
-    benchCage(device, fmt::format("{} x {}, {} faces", copies, name, large.faceCount()), large, 3);
+    benchCage(device, fmt::format("{} x {}, {} faces", copies, name, large.faceCount()), large, {.isolation = 3});
 }
 
 } // namespace relief::bench

@@ -26,8 +26,14 @@ json boundsToJson(const Bounds& b) {
             {"diagonal", b.diagonal()}};
 }
 
-json describeCage(const std::string& path, const std::optional<Distance>& weld, const Warn& warn) {
-    const Cage cage = weldCage(readCage(path, warn), weld);
+/// Faces where the surface that the options ask for is not the limit surface.
+std::size_t countApproximateFaces(const ObjectDesc& desc, const Cage& cage) {
+    const std::optional<SurfaceOptions> options = chooseSurface(desc, cage);
+    return options ? listApproximateFaces(cage, *options).size() : 0;
+}
+
+json describeCage(const std::string& path, const ObjectDesc& desc, const Warn& warn) {
+    const Cage cage = weldCage(readCage(path, warn), desc.weld);
     checkTexCoords(cage, {}, warn);
     const CageSummary s = summarize(cage);
     // Named parts apart from the counts, which are of the whole cage.
@@ -53,6 +59,7 @@ json describeCage(const std::string& path, const std::optional<Distance>& weld, 
             {"holes", s.holeCount},
             {"texture_coordinates", s.texCoordCount},
             {"seam_edges", s.seamEdgeCount},
+            {"approximate_faces", countApproximateFaces(desc, cage)},
             {"bytes", cage.byteCount()},
             {"bounds", boundsToJson(s.bounds)},
             {"parts", parts}};
@@ -272,7 +279,7 @@ int info(const InfoArgs& args) {
     const Warn warn = makeWarn(args.isQuiet || hasHeights(args));
     json all = json::array();
     for (const std::string& file : args.files) {
-        all.push_back(isCage(file) ? describeCage(file, args.object.weld, warn) : describePicture(file));
+        all.push_back(isCage(file) ? describeCage(file, args.object, warn) : describePicture(file));
         if (isCage(file) && hasHeights(args)) all.back().update(describeHeights(args.object, file, args.isQuiet));
     }
     if (args.listsDevices)

@@ -19,6 +19,12 @@ Subdivision chooseSubdivision(const ObjectDesc& desc, const Cage& cage) {
     return desc.subdivision.value_or(cage.isAllTriangles() ? Subdivision::none : Subdivision::catmark);
 }
 
+SurfaceOptions makeSurfaceOptions(const ObjectDesc& desc, Subdivision subdivision, const Cage& cage) {
+    return {.scheme = toScheme(subdivision),
+            .isolation = desc.isolation.value_or(neededIsolation(cage, desc.endCaps)),
+            .endCaps = desc.endCaps};
+}
+
 /// Errors of the surface name the file of its cage.
 Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
     try {
@@ -26,6 +32,15 @@ Surface buildNamedSurface(const LoadedObject& object, const std::string& path) {
     } catch (const Error& error) {
         fail(error.failure, "{}: {}", path, error.what());
     }
+}
+
+void warnOfApproximateFaces(const LoadedObject& object, const std::string& path, const Warn& warn) {
+    const auto faces = listApproximateFaces(object.cage, object.options, &object.surface);
+    if (faces.empty()) return;
+    warn(fmt::format(
+        "{}: {} of {} faces only approximate the limit surface, the first is face {}: their vertices are not "
+        "apart or semi-sharp after {} levels (--isolation), or have more than 64 faces between sharp edges",
+        path, faces.size(), object.cage.faceCount(), faces[0], object.options.isolation));
 }
 
 /// What cannot work together, whatever the files hold.
@@ -139,6 +154,12 @@ std::vector<std::string> listFiles(const SceneDesc& scene) {
     return files;
 }
 
+std::optional<SurfaceOptions> chooseSurface(const ObjectDesc& desc, const Cage& cage) {
+    const Subdivision subdivision = chooseSubdivision(desc, cage);
+    if (subdivision == Subdivision::none) return {};
+    return makeSurfaceOptions(desc, subdivision, cage);
+}
+
 const Coordinates& LoadedObject::coordinates() const {
     return animation && restPositions.empty() ? animation->coordinates() : cage.coordinates;
 }
@@ -181,9 +202,9 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     if (isDense) {
         object.dense = denseMesh(object.cage);
     } else {
-        const int isolation = desc.isolation.value_or(neededIsolation(object.cage, desc.endCaps));
-        object.options = {.scheme = toScheme(subdivision), .isolation = isolation, .endCaps = desc.endCaps};
+        object.options = makeSurfaceOptions(desc, subdivision, object.cage);
         object.surface = buildNamedSurface(object, desc.cage);
+        warnOfApproximateFaces(object, desc.cage, warn);
         if (object.height) fitHeights(object, desc);
     }
     object.loadSeconds = loadEnd - start;

@@ -127,7 +127,10 @@ struct LoadedScene {
 /// Whether a cage that moves is loaded in the pose of MotionDesc::time, or at rest to be posed on the device.
 enum class CageState { posed, atRest };
 
-/// Reads the files of an object and builds its surface.
+/// Chooses the surface of a cage: none where its polygons are drawn themselves.
+std::optional<SurfaceOptions> chooseSurface(const ObjectDesc& desc, const Cage& cage);
+
+/// Reads the files of an object and builds its surface. Warns of faces that only approximate the limit surface.
 /// Throws Failure::file and Failure::input as the readers of the files do, naming the file; Failure::usage where
 /// heights or a time are asked for and the object has no surface or no motion, or welding leaves no face.
 LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn);

@@ -27,10 +27,18 @@ public:
         MatrixXd a(count_, count_);
         a.row(0) = refinedVertex();
         int row = 1;
-        for (int spoke = 0; spoke < pattern_.spokeCount(); ++spoke) a.row(row++) = refinedSpoke(spoke);
+        const int first = pattern_.firstSpoke();
+        for (int i = 0; i < pattern_.windowSpokeCount(); ++i) a.row(row++) = refinedSpoke(first + i);
         if (pattern_.sideCount == 4)
-            for (int face = 0; face < pattern_.faceCount; ++face) a.row(row++) = facePoint(face);
+            for (int i = 0; i < pattern_.windowFaceCount(); ++i) a.row(row++) = facePoint(first + i);
         for (const LatticePoint& p : outer_) a.row(row++) = refined(p);
+        if (pattern_.window > 0) {
+            a.row(row++) = refinedMeanSpoke();
+            if (pattern_.sideCount == 4) a.row(row++) = meanFacePoint();
+            a.row(row++) = refinedVertex(); // tangents are not refined: any row that sums up to 1
+            a.row(row++) = refinedVertex();
+        }
+        RELIEF_CHECK(row == count_);
         return a;
     }
 
@@ -57,13 +65,15 @@ private:
 
     [[nodiscard]] RowVectorXd unit(int point) const { return RowVectorXd::Unit(count_, point); }
     [[nodiscard]] RowVectorXd vertex() const { return unit(0); }
-    [[nodiscard]] RowVectorXd spoke(int j) const {
-        const int n = pattern_.spokeCount();
-        return unit(1 + (j % n + n) % n);
-    }
+    [[nodiscard]] RowVectorXd spoke(int j) const { return unit(1 + placeOf(j, pattern_.windowSpokeCount())); }
     [[nodiscard]] RowVectorXd farCorner(int face) const {
-        const int n = pattern_.faceCount;
-        return unit(1 + pattern_.spokeCount() + (face % n + n) % n);
+        return unit(1 + pattern_.windowSpokeCount() + placeOf(face, pattern_.windowFaceCount()));
+    }
+    /// Around the vertex, or at an end of the window: what is wrong there takes more levels to arrive at the cap than
+    /// there are.
+    [[nodiscard]] int placeOf(int j, int count) const {
+        if (pattern_.window == 0) return (j % count + count) % count;
+        return std::clamp(j - pattern_.firstSpoke(), 0, count - 1);
     }
     /// A point of the lattice before refinement.
     [[nodiscard]] RowVectorXd at(int x, int y) const {
@@ -83,7 +93,7 @@ private:
         }
         const auto found = std::ranges::find(outer_, LatticePoint{x, y});
         RELIEF_CHECK(found != outer_.end());
-        return unit(count_ - int(outer_.end() - found));
+        return unit(count_ - pattern_.sumCount() - int(outer_.end() - found));
     }
 
     // --- rules at the vertex
@@ -99,12 +109,24 @@ private:
         const int n = pattern_.faceCount;
         RowVectorXd around = RowVectorXd::Zero(count_);
         if (pattern_.sideCount == 3) {
-            for (int j = 0; j < n; ++j) around += spoke(j);
+            if (pattern_.window > 0) around = n * meanSpoke();
+            for (int j = 0; j < n && pattern_.window == 0; ++j) around += spoke(j);
             const double c = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n), beta = (0.625 - c * c) / n;
             return (1 - n * beta) * vertex() + beta * around;
         }
-        for (int j = 0; j < n; ++j) around += spoke(j) + facePoint(j);
+        if (pattern_.window > 0) around = n * (meanSpoke() + meanFacePoint());
+        for (int j = 0; j < n && pattern_.window == 0; ++j) around += spoke(j) + facePoint(j);
         return (n - 2.0) / n * vertex() + 1.0 / (double(n) * n) * around;
+    }
+
+    // With a window.
+    [[nodiscard]] RowVectorXd meanSpoke() const { return unit(count_ - pattern_.sumCount()); }
+    [[nodiscard]] RowVectorXd meanFacePoint() const {
+        return 0.25 * (vertex() + 2 * meanSpoke() + unit(count_ - pattern_.sumCount() + 1));
+    }
+    [[nodiscard]] RowVectorXd refinedMeanSpoke() const {
+        if (pattern_.sideCount == 3) return 0.375 * vertex() + 0.625 * meanSpoke();
+        return 0.25 * (vertex() + meanSpoke() + 2 * meanFacePoint());
     }
 
     [[nodiscard]] RowVectorXd refinedSpoke(int j) const {
@@ -226,7 +248,10 @@ MatrixXd diagonalTangents(int sideCount, const MatrixXd& piece) {
 
 /// Around a smooth vertex the two directions of the largest eigenvalues below 1.
 MatrixXd smoothTangents(const CapPattern& pattern, const MatrixXd& deflated, const MatrixXd& piece) {
-    MatrixXd rest = deflated, projection = MatrixXd::Zero(rest.rows(), rest.cols());
+    MatrixXd rest = deflated;
+    // Around a vertex of two faces 1/4 twice, and -1/4: normals tilt to and fro. In the middle of both are the first.
+    if (pattern.faceCount == 2) rest = 0.5 * (MatrixXd::Identity(rest.rows(), rest.cols()) + rest);
+    MatrixXd projection = MatrixXd::Zero(rest.rows(), rest.cols());
     for (int rank = 0; rank < 2;) {
         const MatrixXd p = dominantProjection(rest);
         rank += std::max(int(std::lround(p.trace())), 1);
@@ -288,7 +313,8 @@ RowVectorXd stationaryRow(MatrixXd a) {
 } // namespace
 
 int CapPattern::pointCount() const {
-    return 1 + spokeCount() + (sideCount == 4 ? faceCount : 0) + int(capOuterPoints(*this).size());
+    return 1 + windowSpokeCount() + (sideCount == 4 ? windowFaceCount() : 0) + int(capOuterPoints(*this).size()) +
+           sumCount();
 }
 
 std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern) {
@@ -300,6 +326,41 @@ std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern) {
         points.insert(points.end(), {{2, 0}, {1, 1}, {0, 2}});
     if (!pattern.isSharpAfter()) points.push_back({-1, 2});
     return points;
+}
+
+MatrixXd ringSums(const CapPattern& pattern) {
+    const int n = pattern.faceCount, sum = pattern.sumCount();
+    const bool hasFar = pattern.sideCount == 4;
+    MatrixXd rows = MatrixXd::Zero(sum, 1 + n * (hasFar ? 2 : 1));
+    rows.row(0).segment(1, n).setConstant(1.0 / n);
+    if (hasFar) rows.row(1).tail(n).setConstant(1.0 / n);
+
+    // The limit point, whose weights are Catmull and Clark's n^2, 4 and 1, or Loop's (Halstead, Kass and DeRose 1993).
+    const double angle = 2 * std::numbers::pi / n, c = std::cos(angle);
+    RowVectorXd limit = RowVectorXd::Zero(rows.cols());
+    if (hasFar) {
+        limit(0) = n / (n + 5.0);
+        limit.segment(1, n).setConstant(4 / (n * (n + 5.0)));
+        limit.tail(n).setConstant(1 / (n * (n + 5.0)));
+    } else {
+        const double middle = 0.375 + 0.25 * c, beta = (0.625 - middle * middle) / n;
+        limit(0) = 1 / (1 + 8 * beta * n / 3);
+        limit.tail(n).setConstant((1 - limit(0)) / n);
+    }
+    // Tangents to both sides of the cap's middle, nearly perpendicular however thin the face is. The eigenvector has
+    // the weights cos(j a) of ends and of corners (cos(j a) + cos((j + 1) a)) / (16 L - 4), L the eigenvalue.
+    const double fourL = (5 + c + std::cos(angle / 2) * std::sqrt(18 + 2 * c)) / 4;
+    for (int i = 0; i < 2; ++i) {
+        RowVectorXd tangent = RowVectorXd::Zero(rows.cols());
+        const double towards = angle * (pattern.face + 0.5) + std::numbers::pi * (i == 0 ? -0.25 : 0.25);
+        for (int j = 0; j < n; ++j) {
+            const auto at = [&](int k) { return 2.0 / n * std::cos(angle * k - towards); };
+            tangent(1 + j) = at(j);
+            if (hasFar) tangent(1 + n + j) = (at(j) + at(j + 1)) / (4 * fourL - 4);
+        }
+        rows.row(sum - 2 + i) = limit + tangent;
+    }
+    return rows;
 }
 
 MatrixXd refinementAround(const CapPattern& pattern) { return CapRefinement(pattern).matrix(); }
@@ -323,7 +384,9 @@ CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(p
         }
     }
     const MatrixXd deepest = diagonalTangents(pattern.sideCount, levels_[kCapLevels - 1][1]);
-    if (pattern.rule == VertexRule::corner)
+    if (pattern.window > 0)
+        tangents_ = MatrixXd::Identity(a.rows(), a.rows()).bottomRows(2);
+    else if (pattern.rule == VertexRule::corner)
         tangents_ = pattern.isClosed && !pattern.hasDart ? needleTangents(pattern, deflated, pieces[1]) : deepest;
     else if (pattern.rule == VertexRule::crease)
         tangents_ = creaseTangents(pattern, deflated, deepest);

@@ -33,6 +33,9 @@ struct CapPattern {
     bool isClosed = true; ///< faces all around
     bool hasDart = false; ///< closed, with one sharp edge, which lies before face 0
     VertexRule rule = VertexRule::smooth;
+    /// Edges that count one by one to each side of the cap's own two, and faces to each side of the cap; 0 for all.
+    /// Only around smooth vertices without a dart, whose other edges and faces all count alike.
+    int window = 0;
 
     auto operator<=>(const CapPattern&) const = default;
 
@@ -43,8 +46,14 @@ struct CapPattern {
     }
     [[nodiscard]] bool isSharpBefore() const { return isSharp(face); }
     [[nodiscard]] bool isSharpAfter() const { return isSharp(face + 1); }
+    /// The first edge and face that count one by one, and how many of each.
+    [[nodiscard]] int firstSpoke() const { return window == 0 ? 0 : face - window; }
+    [[nodiscard]] int windowSpokeCount() const { return window == 0 ? spokeCount() : 2 * window + 2; }
+    [[nodiscard]] int windowFaceCount() const { return window == 0 ? faceCount : 2 * window + 1; }
+    /// Points that stand for the whole ring where there is a window: as ringSums() has them.
+    [[nodiscard]] int sumCount() const { return window == 0 ? 0 : sideCount == 4 ? 4 : 3; }
     /// Points around the cap: the vertex, the other ends of its edges, the far corners of its faces if they have four
-    /// sides, then those of capOuterPoints().
+    /// sides, those of capOuterPoints(), then the sums.
     [[nodiscard]] int pointCount() const;
 };
 
@@ -56,6 +65,13 @@ struct LatticePoint {
 
 /// The points around a cap that are in no face of its vertex, in the order of CapPattern::pointCount.
 std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern);
+
+/// The points that stand for the whole ring of a pattern with a window, as rows of weights of the vertex, the other
+/// ends of all edges and, of quads, the far corners of all faces: the mean of the ends, of quads the mean of the
+/// corners, and the vertex's limit point plus p_u and p_v there (the eigenvectors of the two largest eigenvalues below
+/// 1). Each row sums up to 1. A point far along the ring counts in a piece as its neighbours do, down to a level that
+/// depends on the window: refinement carries differences from one edge to the next, one edge per level.
+Eigen::MatrixXd ringSums(const CapPattern& pattern);
 
 // Pieces are at (1,0), at (1,1) and at (0,1); of triangles at (1,0), in the middle and at (0,1).
 

@@ -17,8 +17,8 @@ struct FaceCorner {
 
 /// The faces around a vertex between two sharp edges, or all of them, counter-clockwise.
 struct Sector {
-    CapPattern pattern; ///< `face` is the one that was asked for
-    std::vector<FaceCorner> faces;
+    CapPattern pattern;            ///< `face` is the one that was asked for
+    std::vector<FaceCorner> faces; ///< around a smooth vertex from the one that was asked for on
 
     [[nodiscard]] bool isRegularInside() const {
         const int n = pattern.sideCount == 4 ? 4 : 6;
@@ -71,7 +71,7 @@ public:
         bool isClosed = false;
         for (int steps = 0;; ++steps) {
             const int edge = level_.GetFaceEdges(first.face)[first.corner];
-            if (level_.IsEdgeSemiSharp(edge) || steps > 2 * kMostCapFaces) return {};
+            if (level_.IsEdgeSemiSharp(edge) || steps > 2 * kMostRingFaces) return {};
             if (isSharp(edge)) break;
             const auto other = before(first);
             if (!other) return {};
@@ -143,7 +143,7 @@ private:
             if (at.face == start.face && !isClosed) sector.pattern.face = int(sector.faces.size());
             sector.faces.push_back(at);
             const int edge = level_.GetFaceEdges(at.face)[next(at.corner, -1)];
-            if (level_.IsEdgeSemiSharp(edge) || sector.faces.size() > std::size_t(kMostCapFaces)) return false;
+            if (level_.IsEdgeSemiSharp(edge) || sector.faces.size() > std::size_t(kMostRingFaces)) return false;
             if (isSharp(edge)) break;
             const auto other = after(at);
             if (!other) return false;
@@ -172,7 +172,7 @@ public:
     explicit CapWalker(const LevelWalker& level) : level_(level) {}
 
     /// Finds the one corner of a face that is not regular, and the points around it.
-    bool find(int face, int sideCount) {
+    bool find(int face, int sideCount, int levelCount) {
         int irregularCount = 0;
         std::array<std::optional<Sector>, 4> sectors;
         for (int corner = 0; corner < sideCount; ++corner) {
@@ -185,8 +185,14 @@ public:
         }
         if (irregularCount != 1) return false;
         sector_ = *sectors[at_.corner];
-        const CapPattern& pattern = sector_.pattern;
-        if (pattern.isClosed && pattern.faceCount < 3) return false; // points around it coincide
+        CapPattern& pattern = sector_.pattern;
+        // Two triangles around a vertex lie on each other.
+        if (pattern.isClosed && pattern.faceCount < (sideCount == 4 && !pattern.hasDart ? 2 : 3)) return false;
+        if (pattern.faceCount > kMostCapFaces) {
+            if (pattern.rule != VertexRule::smooth || pattern.hasDart) return false;
+            const int window = levelCount + 1;
+            if (2 * window + 2 < pattern.faceCount) pattern.window = window;
+        }
 
         // What the lattice takes the other corners for.
         const auto fits = [&](int step, bool isOnCrease) {
@@ -200,16 +206,30 @@ public:
 
     [[nodiscard]] const CapPattern& pattern() const { return sector_.pattern; }
     [[nodiscard]] int corner() const { return at_.corner; }
+    /// The points around the cap, without the sums.
     [[nodiscard]] const std::vector<FaceCorner>& points() const { return points_; }
+    /// The vertex, the other ends of all edges, and the far corners of all faces if they have four sides.
+    [[nodiscard]] std::vector<FaceCorner> ring() const {
+        std::vector<FaceCorner> ring{at_};
+        for (const int step : {1, 2})
+            for (const FaceCorner& face : sector_.faces)
+                if (step < sector_.pattern.sideCount - 1) ring.push_back(level_.turned(face, step));
+        return ring;
+    }
 
 private:
     bool collect() {
         points_.assign(1, at_);
         const CapPattern& pattern = sector_.pattern;
-        for (const FaceCorner& face : sector_.faces) points_.push_back(level_.turned(face, 1));
-        if (!pattern.isClosed) points_.push_back(level_.turned(sector_.faces.back(), -1));
+        const auto faceAt = [&](int i) { return sector_.faces[(i + pattern.faceCount) % pattern.faceCount]; };
+        const int first = pattern.firstSpoke(), last = first + pattern.windowFaceCount();
+        for (int i = first; i < last; ++i) points_.push_back(level_.turned(faceAt(i), 1));
+        if (pattern.window > 0)
+            points_.push_back(level_.turned(faceAt(last), 1));
+        else if (!pattern.isClosed)
+            points_.push_back(level_.turned(sector_.faces.back(), -1));
         if (pattern.sideCount == 4)
-            for (const FaceCorner& face : sector_.faces) points_.push_back(level_.turned(face, 2));
+            for (int i = first; i < last; ++i) points_.push_back(level_.turned(faceAt(i), 2));
         return pattern.sideCount == 4 ? collectOuterOfQuads() : collectOuterOfTriangles();
     }
 
@@ -332,26 +352,57 @@ private:
     void addSurface(std::size_t patch, const LevelFace& at) {
         const LevelWalker walker(tables_.refiner->GetLevel(at.level), sideCount_);
         const auto pointAt = [&](FaceCorner corner) { return firstPoints_[at.level] + walker.vertexAt(corner); };
-        tables_.caps.surface[patch] = capAt(walker, at.face, pointAt, limits_, tables_.caps.limits);
+        tables_.caps.surface[patch] =
+            capAt(walker, at.face, pointAt, {limits_, tables_.caps.limits, int(pointCount(tables_))});
     }
 
     void addTexture(std::size_t patch, const LevelFace& at) {
         const LevelWalker walker(tables_.refiner->GetLevel(at.level), sideCount_,
                                  &RefinerAccess::valuesOf(*tables_.refiner, at.level));
         const auto pointAt = [&](FaceCorner corner) { return firstTexPoints_[at.level] + walker.texValueAt(corner); };
-        tables_.caps.texture[patch] = capAt(walker, at.face, pointAt, texLimits_, tables_.caps.texLimits);
+        tables_.caps.texture[patch] =
+            capAt(walker, at.face, pointAt, {texLimits_, tables_.caps.texLimits, int(texPointCount(tables_))});
     }
 
+    /// The points that are sums of a table's points: limit points and rings of large vertices.
+    struct Sums {
+        std::map<int, std::uint32_t>& known; ///< limit points by the vertex's point
+        std::vector<EndCaps::Limit>& all;
+        int first; ///< index of the first sum
+
+        int append(std::vector<int> points, const Eigen::RowVectorXd& weights) {
+            all.push_back({std::move(points), weights});
+            return first + int(all.size()) - 1;
+        }
+    };
+
     template <typename PointAt>
-    std::optional<EndCap> capAt(const LevelWalker& walker, int face, const PointAt& pointAt,
-                                std::map<int, std::uint32_t>& knownLimits, std::vector<EndCaps::Limit>& limits) {
+    std::optional<EndCap> capAt(const LevelWalker& walker, int face, const PointAt& pointAt, Sums sums) {
         CapWalker found(walker);
-        if (!found.find(face, sideCount_)) return {};
+        if (!found.find(face, sideCount_, levelCount_)) return {};
         EndCap cap;
         cap.pattern = patternIndex(found.pattern()), cap.corner = std::uint32_t(found.corner());
         for (const FaceCorner& point : found.points()) cap.points.push_back(pointAt(point));
-        cap.limit = limitIndex(knownLimits, limits, cap);
+        if (found.pattern().window > 0) addRingSums(cap, found, pointAt, sums);
+        cap.limit = limitIndex(sums, cap);
         return cap;
+    }
+
+    /// Means are one per vertex, in the order of the faces around whichever cap comes first; tangents are the cap's
+    /// own.
+    template <typename PointAt>
+    void addRingSums(EndCap& cap, const CapWalker& found, const PointAt& pointAt, Sums& sums) {
+        std::vector<int> ring;
+        for (const FaceCorner& point : found.ring()) ring.push_back(pointAt(point));
+        const Eigen::MatrixXd rows = ringSums(found.pattern());
+        const int meanCount = int(rows.rows()) - 2;
+        const auto [mean, isNew] = means_.try_emplace({&sums.all, cap.points[0]}, 0);
+        for (int i = 0; i < meanCount && isNew; ++i) {
+            const int sum = sums.append(ring, rows.row(i));
+            if (i == 0) mean->second = sum;
+        }
+        for (int i = 0; i < meanCount; ++i) cap.points.push_back(mean->second + i);
+        for (int i = 0; i < 2; ++i) cap.points.push_back(sums.append(ring, rows.row(meanCount + i)));
     }
 
     std::uint32_t patternIndex(const CapPattern& pattern) {
@@ -362,10 +413,9 @@ private:
     }
 
     /// One limit point per vertex, whichever of its caps comes first.
-    std::uint32_t limitIndex(std::map<int, std::uint32_t>& known, std::vector<EndCaps::Limit>& limits,
-                             const EndCap& cap) {
-        const auto [found, isNew] = known.try_emplace(cap.points[0], std::uint32_t(limits.size()));
-        if (isNew) limits.push_back({cap.points, tables_.caps.patterns[cap.pattern]->limitWeights()});
+    std::uint32_t limitIndex(Sums& sums, const EndCap& cap) {
+        const auto [found, isNew] = sums.known.try_emplace(cap.points[0], std::uint32_t(sums.all.size()));
+        if (isNew) sums.append(cap.points, tables_.caps.patterns[cap.pattern]->limitWeights());
         return found->second;
     }
 
@@ -375,6 +425,8 @@ private:
     std::vector<int> firstPoints_, firstTexPoints_; ///< per level
     std::map<CapPattern, std::uint32_t> patterns_;
     std::map<int, std::uint32_t> limits_, texLimits_; ///< by the vertex's point
+    std::map<std::pair<const void*, int>, int>
+        means_; ///< the first mean of a ring, by the array of sums and the vertex
 };
 
 } // namespace

@@ -57,14 +57,6 @@ struct WeightArrays {
     }
 };
 
-bool hasFiniteSharpnessPast(const Cage& cage, int isolation) {
-    const auto isPast = [&](float sharpness) {
-        return sharpness > float(isolation) && sharpness < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE;
-    };
-    return std::any_of(cage.creaseSharpness.begin(), cage.creaseSharpness.end(), isPast) ||
-           std::any_of(cage.vertexSharpness.begin(), cage.vertexSharpness.end(), isPast);
-}
-
 /// A point of an exact end cap and its derivatives by the face's (u,v).
 template <typename V>
 struct CapFrame {

@@ -88,7 +88,7 @@ void checkForLoop(const Cage& cage) {
 }
 
 // The tangents around the middle of a face or vertex of n neighbours depend on all n: memory grows with the square.
-constexpr std::uint32_t kMostNeighbours = 1000, kManyNeighbours = 64;
+constexpr std::uint32_t kMostNeighbours = kMostRingFaces, kManyNeighbours = 64;
 constexpr double kBytesPerSquare = 500, kMostBytes = 4e9; // measured: 480 MB for n = 1000, most of it inside OpenSubdiv
 
 /// Faces and vertices of many neighbours, and what they take together.
@@ -178,19 +178,31 @@ std::unique_ptr<Far::TopologyRefiner> makeRefiner(const Cage& cage, Scheme schem
     return refiner;
 }
 
+namespace {
+
+/// Six patches per semi-sharp edge of the last level, 250 bytes each: 100 MB. More levels double them.
+constexpr double kMostSemiSharpEdges = 65'536;
+
+/// Semi-sharp edges of the last level that is refined for them.
+double countEdgesAfter(const Cage& cage, int levels) {
+    double count = 0;
+    for (const float s : cage.creaseSharpness)
+        if (s < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE) count += std::exp2(std::min(std::ceil(s), float(levels)));
+    return count;
+}
+
+} // namespace
+
 int neededIsolation(const Cage& cage, EndCapKind endCaps) {
     constexpr int kSeparating = 2, kApproximating = 6;
     if (endCaps == EndCapKind::gregory) return kApproximating;
-    std::vector<int> faceCounts(cage.positions.size());
-    for (const std::uint32_t vertex : cage.corners)
-        if (++faceCounts[vertex] > kMostCapFaces) return kApproximating;
-    for (const std::uint32_t size : cage.faceSizes)
-        if (size > std::uint32_t(kMostCapFaces)) return kApproximating;
+    if (hasLargeSharpVertex(cage)) return kApproximating;
     float sharpest = 0;
     for (const auto* sharpnesses : {&cage.creaseSharpness, &cage.vertexSharpness})
         for (const float s : *sharpnesses)
             if (s < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE) sharpest = std::max(sharpest, s);
-    return std::clamp(int(std::ceil(sharpest)), kSeparating, kApproximating);
+    const int levels = std::max(int(std::ceil(sharpest)), kSeparating);
+    return levels > kApproximating && countEdgesAfter(cage, levels) > kMostSemiSharpEdges ? kApproximating : levels;
 }
 
 FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options, int capLevels) {

@@ -14,13 +14,15 @@ enum class Scheme { catmark, loop, bilinear };
 
 /// What stands for the surface in faces at extraordinary vertices.
 enum class EndCapKind {
-    exact,  ///< the limit surface; Gregory patches where rules are semi-sharp or the vertex has more than 64 faces
+    exact,  ///< the limit surface; Gregory patches where rules are semi-sharp or more than 64 faces lie between sharp
+            ///< edges
     gregory ///< OpenSubdiv's patches, which approximate it
 };
 
 /// Levels of adaptive refinement that a cage needs: 2 separate extraordinary vertices from each other, semi-sharp
-/// creases and vertices need as many as their sharpness. 6 with Gregory patches, which only get nearer to the surface
-/// with each level, and with vertices of more faces than exact end caps are made for.
+/// creases and vertices need as many as their sharpness; where tables would grow past 100 MB for these, 6 at most. 6
+/// with Gregory patches, which only get nearer to the surface with each level, and where exact end caps would have more
+/// than 64 faces between sharp edges.
 int neededIsolation(const Cage& cage, EndCapKind endCaps);
 
 struct SurfaceOptions {
@@ -84,6 +86,13 @@ struct Surface {
 /// Throws Failure::input for cages that the scheme does not allow (Loop needs triangles) and Failure::usage for an
 /// isolation out of range.
 Surface buildSurface(const Cage& cage, const SurfaceOptions& options);
+
+/// Lists the faces of the cage that hold patches which only approximate the limit surface although exact end caps were
+/// asked for, in rising order: beside semi-sharp creases and vertices that are sharper than the isolation, at vertices
+/// with more than 64 faces between sharp edges, and where the isolation does not separate extraordinary vertices.
+/// `surface`: the one that was built of the cage with these options; it is built where there is none and need for it.
+std::vector<std::uint32_t> listApproximateFaces(const Cage& cage, const SurfaceOptions& options,
+                                                const Surface* surface = nullptr);
 
 /// A leaf of a face's tree. In four-sided faces it covers ([u, u+1], [v, v+1]) / 2^depth.
 struct TreeLeaf {

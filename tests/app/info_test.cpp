@@ -1,4 +1,5 @@
 // relief info: cages, pictures, devices, as text and as JSON.
+#include <fstream>
 #include <sstream>
 
 #include "program.h"
@@ -28,6 +29,25 @@ TEST(Info, ofACageCountsItsParts) {
     EXPECT_EQ(lantern.at("n_gons"), 9);
     EXPECT_EQ(lantern.at("triangles"), 16);
     EXPECT_GT(lantern.at("boundary_edges"), 0);
+}
+
+// Rules that two levels do not follow to their end; what draws such a surface says so.
+TEST(Info, ofACageCountsFacesThatOnlyApproximateTheLimitSurface) {
+    const TemporaryFolder folder;
+    const std::string path = folder / "cube.obj";
+    std::ofstream(path) << std::ifstream(cagePath("lantern")).rdbuf() << "t crease 2/1/0 0 1 2.5\n";
+    const auto count = [&](const char* isolation) {
+        return jsonOf(relief({"info", "--json", "--scheme", "catmark", "--isolation", isolation, path}))
+            .at(0)
+            .at("approximate_faces")
+            .get<int>();
+    };
+    EXPECT_GT(count("2"), 0);
+    EXPECT_EQ(count("3"), 0);
+    const Outcome drawn =
+        relief({"export", path, "--scheme", "catmark", "--isolation", "2", "--rate", "1", "-o", folder / "a.obj"});
+    EXPECT_EQ(drawn.exitCode, 0);
+    EXPECT_TRUE(contains(drawn.err, "faces only approximate the limit surface")) << drawn.err;
 }
 
 /// Expects that the values of all rows of a report begin in the same column.

@@ -21,9 +21,10 @@ TEST(Corners, ofExactNormalsTurnLittle) {
         const ReferenceSurface reference(named.cage, {});
         const std::vector<SampleQuery> corners = cornersOf(buildSurface(named.cage, {}));
         const CornerReport report = reportCorners(reference, corners, exactNormals(reference, corners));
-        // At some sharp vertices tangents nearly coincide: corners that are not counted.
-        EXPECT_GE(report.count + 8, corners.size()) << named.name;
-        EXPECT_LT(report.max, 12) << named.name << " face " << report.worst.face;
+        // Corners of three faces on one edge are not counted: their tangents nearly coincide.
+        EXPECT_EQ(report.count + (named.name == "nonManifoldEdge" ? 8 : 0), corners.size()) << named.name;
+        // Around many faces normals arrive at their limit slowly: at 2^-10 of a face from 17 of them, by 11 degrees.
+        EXPECT_LT(report.max, named.name == "poles17" ? 12 : 2) << named.name << " face " << report.worst.face;
     }
 }
 

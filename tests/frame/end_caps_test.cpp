@@ -1,8 +1,11 @@
-// The device's frames beside extraordinary vertices against the double-precision reference.
+// The device's frames beside extraordinary vertices against the double-precision reference, and its displaced normals
+// there against differences of the displaced surface.
+#include <numbers>
 #include <random>
 
 #include "device.h"
 #include "meshes.h"
+#include "support.h"
 
 namespace relief::test {
 namespace {
@@ -20,7 +23,7 @@ std::vector<SampleQuery> queriesAtCorners(const Surface& surface, std::uint32_t 
             const dvec2 next = sidePoint(surface.sideCount, corner, 1) - at;
             const dvec2 previous =
                 sidePoint(surface.sideCount, (corner + surface.sideCount - 1) % surface.sideCount, 0) - at;
-            for (int k = 2; k <= 20; k += 3)
+            for (int k = 2 + (int(face) + corner) % 3; k <= 20; k += 3) // on all levels of tables
                 queries.push_back({face, vec2(at + std::ldexp(1.0, -k) * (double(unit(random)) * next +
                                                                           double(unit(random)) * previous))});
         }
@@ -36,10 +39,12 @@ struct CapErrors {
     double point = 0, tangent = 0, degrees = 0;
 };
 
-CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options) {
-    const Surface surface = buildSurface(cage, options);
-    const ReferenceSurface reference(cage, options);
-    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
+/// Of a surface and the reference of its cage, moved to `positions`.
+CapErrors errorsAtCorners(const Surface& surface, const Cage& cage, const SurfaceOptions& options,
+                          const std::vector<vec3>& positions) {
+    ReferenceSurface reference(cage, options);
+    reference.pose(positions);
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions});
     const std::vector<SampleQuery> queries = queriesAtCorners(surface, 200);
     const std::vector<SampleResult> results = sampler().sample(model, queries, {});
     const double size = summarize(cage).bounds.longestSide();
@@ -58,20 +63,179 @@ CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options) {
     return errors;
 }
 
+CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options, const std::vector<vec3>& positions) {
+    return errorsAtCorners(buildSurface(cage, options), cage, options, positions);
+}
+
 class EndCaps : public OnDevice {};
 
+void expectExact(const CapErrors& errors) {
+    EXPECT_LE(errors.point, 1e-6);
+    EXPECT_LE(errors.tangent, 1e-5);
+    EXPECT_LE(errors.degrees, 0.01);
+}
+
+/// Sharp edges leave a pole of seven faces: sectors of all sizes, darts, creases and corners.
+std::vector<NamedCage> creasedPoles() {
+    std::vector<NamedCage> cages;
+    for (const std::vector<std::uint32_t>& spokes : std::vector<std::vector<std::uint32_t>>{
+             {0}, {0, 1}, {0, 2}, {0, 3}, {0, 1, 2}, {0, 2, 5}, {0, 1, 2, 3, 4, 5, 6}}) {
+        Cage cage = poles(7);
+        for (const std::uint32_t spoke : spokes) addCrease(cage, 14, 2 * spoke, 10);
+        cages.push_back({fmt::format("pole with {} sharp edges", spokes.size()), cage});
+    }
+    Cage needle = poles(7);
+    addSharpVertex(needle, 14, 10);
+    cages.push_back({"sharp pole", needle});
+    return cages;
+}
+
 TEST_F(EndCaps, areExactDownToAMillionthOfAFace) {
-    for (const NamedCage& named : allCages()) {
+    std::vector<NamedCage> cages = allCages();
+    for (const int valence : {18, 64, 100}) cages.push_back({fmt::format("poles of {}", valence), poles(valence)});
+    for (NamedCage& named : creasedPoles()) cages.push_back(std::move(named));
+    for (const NamedCage& named : cages) {
         SCOPED_TRACE(named.name);
         for (const Scheme scheme : {Scheme::catmark, Scheme::loop}) {
             if (scheme == Scheme::loop && !named.cage.isAllTriangles()) continue;
-            const CapErrors errors = errorsAtCorners(named.cage, {.scheme = scheme, .isolation = 2});
-            EXPECT_LE(errors.point, 1e-6);
-            EXPECT_LE(errors.tangent, 1e-5);
-            EXPECT_LE(errors.degrees, 0.01);
-            if (std::getenv("RELIEF_PRINT") != nullptr)
-                std::cout << fmt::format("{:30} p {:.1e} tangent {:.1e} n {:.1e}\n", named.name, errors.point,
-                                         errors.tangent, errors.degrees);
+            expectExact(errorsAtCorners(named.cage, {.scheme = scheme, .isolation = 2}, named.cage.positions));
+        }
+    }
+}
+
+// Nothing but the points changes with a pose: tables are those of the cage at rest.
+TEST_F(EndCaps, areExactInAnyPose) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> away(-0.15F, 0.15F);
+    const std::vector<NamedCage> patterns = creasedPoles();
+    const Cage cages[] = {poles(5), poles(70), nGonPrism(3), patterns[0].cage, patterns[3].cage};
+    for (int pose = 0; pose < 10; ++pose) {
+        const Cage& cage = cages[pose % 5];
+        std::vector<vec3> positions = cage.positions;
+        // Around poles of many faces neighbours move alike: folds would not have a normal.
+        const float amount = cage.positions.size() > 100 ? 0.02F : 1;
+        for (vec3& p : positions) p += amount * vec3(away(random), away(random), away(random));
+        SCOPED_TRACE(pose);
+        expectExact(errorsAtCorners(cage, {.isolation = 2}, positions));
+    }
+}
+
+// Tests of the tests: one weight, one level's power of the matrix, the corner that one cap is turned to.
+TEST_F(EndCaps, withABrokenTableAreSeen) {
+    const Cage cage = poles(5);
+    const SurfaceOptions options{.isolation = 2};
+    const Surface whole = buildSurface(cage, options);
+    const CapTable table = whole.capTables.at(0);
+    const auto levelAt = [&](Surface& surface, int level) {
+        return surface.capWeights.begin() + table.firstWeight + std::ptrdiff_t(level - 1) * table.pointCount * 24;
+    };
+    Surface weight = whole, power = whole, turned = whole;
+    *(levelAt(weight, 5) + 3 * 24 + 10) += 1e-4F;
+    std::copy_n(levelAt(power, 6), table.pointCount * 24, levelAt(power, 5));
+    for (Patch& patch : turned.patches)
+        if (patch.type == kPatchExactQuad) patch.cap ^= 1;
+    for (const Surface* surface : {&weight, &power, &turned}) {
+        const CapErrors errors = errorsAtCorners(*surface, cage, options, cage.positions);
+        EXPECT_GT(std::max(errors.point, 0.1 * errors.tangent), 1e-6);
+    }
+    expectExact(errorsAtCorners(whole, cage, options, cage.positions));
+}
+
+/// The displaced surface as doubles and the height function itself have it.
+struct WavySurface {
+    const ReferenceSurface& limit;
+    double amplitude;
+
+    [[nodiscard]] dvec3 point(std::uint32_t face, const dvec2& uv) const {
+        const dvec2 st = 2 * std::numbers::pi * limit.texture(int(face), uv).st;
+        return limit.limit(int(face), uv).p + amplitude * std::sin(st.x) * std::cos(st.y) * limit.normal(int(face), uv);
+    }
+    /// By differences over a thousandth of the distance to the nearest corner.
+    [[nodiscard]] dvec3 normal(std::uint32_t face, const dvec2& uv, double distance) const {
+        const dvec2 u(distance / 1024, 0), v(0, distance / 1024);
+        return glm::cross(point(face, uv + u) - point(face, uv - u), point(face, uv + v) - point(face, uv - v));
+    }
+};
+
+struct NormalErrors {
+    double squares = 0, worst = 0;
+    std::size_t count = 0;
+};
+
+/// Of full normals in the faces of a cage, at 2^-1 to 2^-9 of a face from its corners.
+NormalErrors normalErrors(const Cage& cage, std::uint32_t mostFaces) {
+    const SurfaceOptions options{.isolation = neededIsolation(cage, EndCapKind::exact)};
+    const Surface surface = buildSurface(cage, options);
+    const ReferenceSurface reference(cage, options);
+    const double amplitude = 0.01 * summarize(cage).bounds.longestSide();
+    const HeightMap map = sineMap(2048, amplitude, 1);
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const WavySurface wavy{reference, amplitude};
+    std::vector<SampleQuery> queries;
+    const auto stride = std::max<std::uint32_t>(std::uint32_t(surface.faces.size()) / mostFaces, 1);
+    std::vector<double> distances;
+    for (std::uint32_t face = 0; face < surface.faces.size(); face += stride) {
+        if (surface.faces[face].root == kNoPatch) continue;
+        for (int corner = 0; corner < 4; ++corner)
+            for (int k = 1; k <= 9; k += 2) {
+                const dvec2 at = sidePoint(4, corner, 0), inside = dvec2(1) - 2.0 * at;
+                const double distance = std::ldexp(1.0, -k);
+                queries.push_back({face, vec2(at + distance * inside * dvec2(0.9, 0.61))});
+                distances.push_back(0.61 * distance);
+            }
+    }
+    NormalErrors errors;
+    const std::vector<SampleResult> results = sampler().sample(model, queries, {});
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const dvec2 uv(queries[i].uv);
+        const dvec3 expected = wavy.normal(queries[i].face, uv, distances[i]);
+        const double degrees = degreesBetween(expected, dvec3(results[i].m));
+        errors.worst = std::max(errors.worst, degrees), errors.squares += degrees * degrees, ++errors.count;
+    }
+    return errors;
+}
+
+TEST_F(EndCaps, haveTheNormalsOfTheDisplacedSurface) {
+    std::vector<NamedCage> cages = creasedPoles();
+    for (const int valence : {3, 5, 30}) cages.push_back({fmt::format("poles of {}", valence), poles(valence)});
+    cages.push_back({"prism", nGonPrism(7)});
+    if (const std::string folder = productionFolder(); !folder.empty())
+        for (const char* file : {"bigguy.obj", "monsterfrog.obj"})
+            cages.push_back({file, readCage(folder + "/" + file)});
+    for (const NamedCage& named : cages) {
+        SCOPED_TRACE(named.name);
+        const NormalErrors errors = normalErrors(named.cage, 50);
+        const double rms = std::sqrt(errors.squares / double(errors.count));
+        EXPECT_LE(rms, 0.05);
+        EXPECT_LE(errors.worst, 1);
+    }
+}
+
+// At the vertex itself derivatives vanish or have no bound, where faces shrink more slowly or faster than by halves.
+TEST_F(EndCaps, haveANormalAtTheVertex) {
+    const HeightMap map = sineMap(256, 0.05);
+    for (const int valence : {3, 5, 8, 17, 64, 100}) {
+        const Cage cage = poles(valence);
+        const Surface surface = buildSurface(cage, {.isolation = 2});
+        const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+        std::vector<SampleQuery> queries;
+        for (std::uint32_t face = 0; face < surface.faces.size(); ++face)
+            for (const float distance : {0.0F, 1e-6F})
+                queries.push_back({face, vec2(distance)}); // corner 0 is the pole
+        for (const NormalKind kind : {NormalKind::firstOrder, NormalKind::full}) {
+            const std::vector<SampleResult> results = sampler().sample(model, queries, {.normal = kind});
+            for (std::size_t i = 0; i < results.size(); i += 2) {
+                const SampleResult &at = results[i], &beside = results[i + 1];
+                EXPECT_NEAR(glm::length(at.m), 1, 1e-5) << valence;
+                EXPECT_NEAR(glm::length(beside.m), 1, 1e-5) << valence;
+                // Around many faces normals arrive at their limit slowly, displaced ones just as fast.
+                const double turn = degreesBetween(dvec3(at.n), dvec3(beside.n));
+                const double displacedTurn = degreesBetween(dvec3(at.m), dvec3(beside.m));
+                EXPECT_GE(degreesBetween(dvec3(at.n), dvec3(at.m)), 1) << valence;
+                if (kind == NormalKind::firstOrder) {
+                    EXPECT_LE(displacedTurn, 1.05 * turn + 0.05) << valence;
+                }
+            }
         }
     }
 }

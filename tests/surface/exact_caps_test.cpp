@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include <gtest/gtest.h>
 
@@ -81,7 +82,7 @@ TEST(ExactCaps, AreTheLimitSurfaceAsNearToTheVertexAsPointsGo) {
 // On the same level as the surface's own depth nothing of the oracle cancels: tangents and second derivatives are
 // exact.
 TEST(ExactCaps, HaveExactDerivatives) {
-    for (const int valence : {3, 5, 12, 31, 64}) {
+    for (const int valence : {3, 5, 12, 31, 64, 150}) {
         const Family family{"poles", poles(valence)};
         const Errors errors = errorsAround(family, std::uint32_t(2 * valence), 8);
         EXPECT_EQ(errors.approximate, 0) << valence;
@@ -91,19 +92,82 @@ TEST(ExactCaps, HaveExactDerivatives) {
     }
 }
 
-TEST(ExactCaps, CoverAllFacesButSemiSharpAndVeryLargeOnes) {
-    const auto countApproximate = [](const Cage& cage, Scheme scheme) {
-        int count = 0;
-        const Surface surface = buildSurface(cage, {scheme, 2});
+/// Two faces around a vertex, bent.
+Cage twoFaces() {
+    Cage cage =
+        makeCage({{0, 0.1F, 0}, {-1, 0, 0}, {1, 0.2F, 0}, {0, 0, -1}, {0, 0.3F, 1}}, {{0, 1, 4, 2}, {0, 2, 3, 1}});
+    return bent(cage);
+}
+
+/// Poles of n faces with an edge at one of them that is sharp: a dart.
+Cage dartPoles(std::uint32_t n) {
+    Cage cage = poles(int(n));
+    const auto at = std::ranges::find(cage.corners, 2 * n) - cage.corners.begin();
+    const std::ptrdiff_t face = at / 4 * 4;
+    test::addCrease(cage, 2 * n, cage.corners[face + (at - face + 1) % 4], 10);
+    return cage;
+}
+
+// What counts one by one in a face of a large vertex is enough on all levels.
+TEST(ExactCaps, AreExactAroundVerticesOfVeryManyFaces) {
+    const Errors errors = errorsAround({"poles", poles(95)}, 2 * 95, 18);
+    EXPECT_EQ(errors.approximate, 0);
+    EXPECT_LE(errors.point, 1e-14);
+    EXPECT_LE(errors.tangent, 1e-5);
+    EXPECT_LE(errors.degrees, 2e-3);
+}
+
+// Tangents vanish there twice as fast as distances do, and normals tilt to and fro.
+TEST(ExactCaps, AreExactAroundVerticesOfTwoFaces) {
+    const Family family{"two faces", twoFaces()};
+    const Errors errors = errorsAround(family, 0, 12);
+    EXPECT_EQ(errors.approximate, 0);
+    EXPECT_LE(errors.point, 1e-14);
+    EXPECT_LE(errors.tangent, 1e-7);
+}
+
+// Which patches are Gregory patches in spite of exact end caps is known of the cage and said of its faces.
+TEST(ExactCaps, CoverAllFacesButSemiSharpOnesAndThoseBetweenVeryManyFaces) {
+    const auto countApproximate = [](const Cage& cage, const SurfaceOptions& options) {
+        std::set<std::uint32_t> faces;
+        const Surface surface = buildSurface(cage, options);
         for (const Patch& patch : surface.patches)
-            count += patch.type == kPatchGregory || patch.type == kPatchGregoryTriangle ? 1 : 0;
-        return count;
+            if (patch.type == kPatchGregory || patch.type == kPatchGregoryTriangle)
+                faces.insert(surface.faces[patch.param0 & 0xfffffff].cageFace);
+        const auto listed = listApproximateFaces(cage, options);
+        EXPECT_TRUE(std::ranges::includes(listed, faces));
+        EXPECT_EQ(listed.empty(), faces.empty());
+        return faces.size();
     };
-    EXPECT_EQ(countApproximate(poles(64), Scheme::catmark), 0);
-    EXPECT_EQ(countApproximate(poles(65), Scheme::catmark), 2 * 65);
-    EXPECT_EQ(countApproximate(withCreases(prism(4), {4, 5, 6, 7}, 2), Scheme::catmark), 0);
-    EXPECT_GT(countApproximate(withCreases(prism(4), {4, 5, 6, 7}, 2.5F), Scheme::catmark), 0);
-    EXPECT_EQ(countApproximate(withCreases(icosahedron(), {0, 11, 5}, 10), Scheme::loop), 0);
+    const std::vector<std::uint32_t> top{4, 5, 6, 7};
+    EXPECT_EQ(countApproximate(poles(64), {.isolation = 2}), 0u);
+    EXPECT_EQ(countApproximate(poles(65), {.isolation = 2}), 0u);
+    EXPECT_EQ(countApproximate(poles(65), {.isolation = 1}), 0u);
+    EXPECT_EQ(countApproximate(dartPoles(9), {.isolation = 2}), 0u);
+    EXPECT_EQ(countApproximate(dartPoles(65), {.isolation = 2}), 65u);
+    EXPECT_EQ(countApproximate(prism(4), {.isolation = 0}), 6u);
+    EXPECT_EQ(countApproximate(withCreases(prism(4), top, 2), {.isolation = 2}), 0u);
+    EXPECT_GT(countApproximate(withCreases(prism(4), top, 2.5F), {.isolation = 2}), 0u);
+    EXPECT_GT(countApproximate(withSharpVertex(prism(4), 4, 2.5F), {.isolation = 2}), 0u);
+    EXPECT_EQ(countApproximate(withCreases(icosahedron(), {0, 11, 5}, 10), {Scheme::loop, 2}), 0u);
+    EXPECT_EQ(listApproximateFaces(prism(4), {.isolation = 0, .endCaps = EndCapKind::gregory}).size(), 0u);
+}
+
+TEST(ExactCaps, NeedLevelsWhereRulesAreSemiSharp) {
+    const auto needed = [](const Cage& cage) { return neededIsolation(cage, EndCapKind::exact); };
+    const std::vector<std::uint32_t> top{4, 5, 6, 7};
+    EXPECT_EQ(needed(poles(1000)), 2);
+    EXPECT_EQ(needed(dartPoles(64)), 2);
+    EXPECT_EQ(needed(dartPoles(65)), 6);
+    EXPECT_EQ(needed(withCreases(prism(4), top, 3.2F)), 4);
+    EXPECT_EQ(needed(withCreases(prism(4), top, 9.5F)), 10);
+    // Each level would double tables of 100 MB.
+    Cage many = sheet(20, 20);
+    for (std::uint32_t i = 0; i < 20; ++i)
+        for (std::uint32_t j = 0; j < 20; ++j) test::addCrease(many, 21 * j + i, 21 * j + i + 1, 9.5F);
+    EXPECT_EQ(needed(many), 6);
+    for (const Family& family : allFamilies())
+        EXPECT_TRUE(listApproximateFaces(family.cage, {family.scheme, needed(family.cage)}).empty()) << family.name;
 }
 
 // Catmull and Clark's subdominant eigenvalue in closed form: how fast faces around a vertex shrink.
