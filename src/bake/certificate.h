@@ -1,14 +1,14 @@
 // The proof of a baked map: the surface displaced by it, measured against the sculpt.
 #pragma once
 
+#include "bake/lines.h"
 #include "displacement/displacement.h"
 #include "distance/distance.h"
 
 namespace relief {
 
 struct BakeCertificateOptions {
-    LineReach reach;
-    Facing facing = Facing::front;
+    LineSearch lines;
     std::uint64_t triangleCount = 1'000'000; ///< about so many of the displaced surface
     bool wantsDistances = false;             ///< of the vertices of BakeCertificate::displaced
     ShowProgress progress = ShowProgress::never;

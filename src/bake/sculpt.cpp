@@ -130,7 +130,8 @@ SculptFaults windAlike(TriangleMesh& mesh) {
     return faults;
 }
 
-SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const LineReach& reach) {
+SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const LineSearch& lines) {
+    const SculptLines along(surface, sculpt, lines);
     constexpr int kPoints = 4096;
     const int perSide = std::clamp(int(std::ceil(std::sqrt(double(kPoints) / surface.faceCount()))), 1, 16);
     const int step = std::max(1, surface.faceCount() / kPoints);
@@ -140,11 +141,11 @@ SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sc
         for (int i = 0; i < perSide * perSide; ++i) {
             dvec2 uv = (dvec2(i % perSide, i / perSide) + 0.5) / double(perSide);
             if (surface.sideCount() == 3 && uv.x + uv.y > 1) continue;
-            const dvec3 p = surface.limit(face, uv).p, n = surface.normal(face, uv);
+            const SculptLines::Line line = along.lineAt(face, uv);
             ++sides.lineCount;
-            const std::optional<LineHit> any = sculpt.nearestOnLine(p, n, reach, Facing::any);
+            const std::optional<LineHit> any = along.find(line, Facing::any);
             if (!any) continue;
-            const std::optional<LineHit> front = sculpt.nearestOnLine(p, n, reach, Facing::front);
+            const std::optional<LineHit> front = along.find(line, Facing::front);
             ++(front && front->height == any->height ? sides.frontCount : sides.backCount);
         }
     }

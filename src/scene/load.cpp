@@ -161,7 +161,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
         const int isolation = desc.isolation.value_or(neededIsolation(object.cage, desc.endCaps));
         object.options = {.scheme = toScheme(subdivision), .isolation = isolation, .endCaps = desc.endCaps};
         object.surface = buildNamedSurface(object, desc.cage);
-        if (object.height) fitHeights(object, desc);
+        if (object.height) fitHeights(object, desc, warn);
     }
     object.loadSeconds = loadEnd - start;
     object.surfaceSeconds = secondsNow() - loadEnd;
