@@ -139,6 +139,18 @@ void warnOfIslands(const BakeArgs& args, const UvTexels& texels, const Warn& war
                          args.object.cage, flat.size(), flat.front()));
 }
 
+/// Faces that no sample lies in: too small, or under others.
+void warnOfUnseenFaces(const BakeArgs& args, const BakePair& pair, const BakedHeights& baked, const Warn& warn) {
+    std::vector<int> unseen;
+    for (int face = 0; face < pair.reference.faceCount(); ++face)
+        if (!baked.seenFaces[std::size_t(face)] && !pair.reference.isHole(face)) unseen.push_back(face);
+    if (!unseen.empty())
+        warn(fmt::format(
+            "{}: {} faces have no sample of {} x {} texels, face {} is the first: their islands are smaller "
+            "than a texel, or under others",
+            args.object.cage, unseen.size(), args.size.x, args.size.y, unseen.front()));
+}
+
 /// Throws for tiles that the name of the files cannot number, before anything is baked.
 void checkTiles(const BakeArgs& args, std::span<const ivec2> tiles) {
     const std::optional<TilePattern> pattern = findTilePattern(args.target);
@@ -157,6 +169,9 @@ void checkTiles(const BakeArgs& args, std::span<const ivec2> tiles) {
 void addCounts(BakedHeights& sum, const BakedHeights& part) {
     sum.texelCount += part.texelCount, sum.voidCount += part.voidCount;
     sum.sampleCount += part.sampleCount, sum.missCount += part.missCount;
+    sum.seenFaces.resize(part.seenFaces.size());
+    for (std::size_t i = 0; i < part.seenFaces.size(); ++i)
+        if (part.seenFaces[i]) sum.seenFaces[i] = true;
     sum.behindCount += part.behindCount, sum.insideCount += part.insideCount;
 }
 
@@ -186,6 +201,7 @@ HeightMap bakePictures(const BakeArgs& args, const BakePair& pair, const BakeOpt
     if (tiles.empty())
         fail(Failure::input, "{}: no texel of {} x {} lies on an island of its texture coordinates", args.object.cage,
              args.size.x, args.size.y);
+    warnOfUnseenFaces(args, pair, report.baked, warn);
     return storeHeights(args, pair, std::move(tiles), warn);
 }
 

@@ -19,12 +19,13 @@ class HeightBaker {
 public:
     HeightBaker(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const TexelSource& texels,
                 const BakeOptions& options)
-        : texels_(texels), options_(options), lines_(surface, sculpt, options_.lines),
+        : texels_(texels), faceCount_(surface.faceCount()), options_(options), lines_(surface, sculpt, options_.lines),
           layers_(surface, sculpt, options_.layers), channelCount_(std::size_t(layers_.channelCount())),
           progress_("baking", std::uint64_t(texels.height()), options.progress, "rows") {}
 
     BakedHeights bake() {
         map_.width = texels_.width(), map_.height = texels_.height();
+        map_.seenFaces.assign(std::size_t(faceCount_), false);
         const std::size_t count = std::size_t(map_.width) * std::size_t(map_.height);
         map_.heights.assign(count, 0);
         map_.states.assign(count, TexelState::outside);
@@ -71,6 +72,8 @@ private:
             if (sums[i].layerCount > 0) putLayers(firstTexel + i, sums[i].layerCount, &channels[i * channelCount_]);
         }
         const std::lock_guard lock(mutex_);
+        for (const TexelSample& sample : samples)
+            if (sample.isInside) map_.seenFaces[std::size_t(sample.face)] = true;
         map_.texelCount += counts.texelCount, map_.voidCount += counts.voidCount;
         map_.sampleCount += counts.sampleCount, map_.missCount += counts.missCount;
         map_.behindCount += counts.behindCount, map_.insideCount += counts.insideCount;
@@ -138,6 +141,7 @@ private:
     }
 
     const TexelSource& texels_;
+    int faceCount_;
     BakeOptions options_;
     SculptLines lines_;
     LayerSampler layers_;

@@ -30,6 +30,7 @@ struct BakedHeights {
     std::uint64_t texelCount = 0, voidCount = 0;
     std::uint64_t sampleCount = 0, missCount = 0;
     std::uint64_t behindCount = 0; ///< samples whose line passes the back of another triangle first
+    std::vector<bool> seenFaces;   ///< faces that a sample lies in
     std::uint64_t insideCount = 0; ///< samples where LineSearch::cage lies inside of the surface
 };
 

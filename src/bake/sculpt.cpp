@@ -109,11 +109,29 @@ TriangleMesh triangulate(const Cage& cage) {
 
 } // namespace
 
-TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates, const Warn& warn) {
+namespace {
+
+/// In coordinates of the file's own, or in those that are asked for.
+TriangleMesh readAnyTriangles(const std::string& path, const Coordinates& coordinates, const Warn& warn) {
     if (isTriangleFile(path)) return readTriangles(path, coordinates);
     const bool isObj = lowerExtension(path) == ".obj";
-    TriangleMesh mesh = triangulate(isObj ? parseObj(readFile(path), path, warn, coordinates) : readCage(path, warn));
+    return triangulate(isObj ? parseObj(readFile(path), path, warn, coordinates) : readCage(path, warn));
+}
+
+bool hasArea(const TriangleMesh& mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const auto at = [&](std::size_t k) { return dvec3(mesh.positions[mesh.indices[i + k]]); };
+        if (glm::cross(at(1) - at(0), at(2) - at(0)) != dvec3(0)) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates, const Warn& warn) {
+    TriangleMesh mesh = readAnyTriangles(path, coordinates, warn);
     if (mesh.indices.empty()) fail(Failure::input, "{}: there are no triangles", path);
+    if (!hasArea(mesh)) fail(Failure::input, "{}: none of its {} triangles has an area", path, mesh.indices.size() / 3);
     if (mesh.coordinates != coordinates)
         for (vec3& p : mesh.positions) p = vec3(coordinates.toLocal(mesh.coordinates.toWorld(dvec3(p))));
     mesh.coordinates = coordinates;

@@ -10,7 +10,7 @@
 namespace relief {
 
 /// Reads the triangles of a .ply, .stl, .obj, .gltf or .glb, in `coordinates`. Polygons become fans.
-/// Throws as readTriangles and readCage do.
+/// Throws as readTriangles and readCage do, and Failure::input where no triangle has an area.
 TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates, const Warn& warn = warnOnStderr);
 
 /// What is odd about the triangles of a sculpt. Vertices at equal positions count as one.
