@@ -2,6 +2,8 @@
 #include <cmath>
 #include <iostream>
 
+#include <malloc.h>
+
 #include <nlohmann/json.hpp>
 
 #include "app/bake_maps.h"
@@ -37,6 +39,7 @@ void describeMap(BakeReport& report, const HeightMap& map) {
 
 int bake(const BakeArgs& args) {
     checkBakeArgs(args);
+    mallopt(M_MMAP_THRESHOLD, 1 << 20); // arrays of a sculpt's size go back to the system as soon as they are freed
     const Warn warn = makeWarn(args.output.isQuiet);
     BakeReport report{.cage = args.object.cage,
                       .sculpt = args.sculpt,

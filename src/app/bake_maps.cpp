@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include <malloc.h>
-
 #include "displacement/map_origin.h"
 
 namespace relief::app {
@@ -255,7 +253,6 @@ HeightMap bakeMaps(const BakeArgs& args, const BakePair& pair, BakeReport& repor
         warn(fmt::format("{}: {} of {} lines begin on the surface, because the cage lies inside of it there",
                          args.smoothCage ? "--smooth-cage" : args.lineCage, baked.insideCount, baked.sampleCount));
     report.isBaked = true;
-    malloc_trim(0);
     return map;
 }
 

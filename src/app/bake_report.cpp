@@ -89,7 +89,7 @@ nlohmann::json toJson(const BakeReport& report) {
                        {"folded_share", certificate.foldedShare},
                        {"overturned_share", certificate.overturnedShare},
                        {"overturned_triangles", certificate.overturnedCount},
-                       {"certificate_triangles", certificate.displaced.indices.size() / 3},
+                       {"certificate_triangles", certificate.triangleCount},
                        {"certificate_rate", certificate.rate},
                        {"seam_gap", report.seams.max * report.unit},
                        {"seam_edges", report.seams.seamEdgeCount},

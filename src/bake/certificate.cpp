@@ -49,7 +49,7 @@ public:
         Progress progress("certifying", 4, options_.progress);
         DenseMesh& mesh = certificate_.displaced;
         mesh.positions.resize(faces_.size() * perFace_);
-        mesh.normals.resize(mesh.positions.size());
+        if (options_.wantsDistances) mesh.normals.resize(mesh.positions.size());
         if (options_.wantsDistances) mesh.heights.resize(mesh.positions.size());
         facts_.resize(mesh.positions.size());
         onEachFace([this](std::size_t i) { displaceFace(i); });
@@ -58,7 +58,11 @@ public:
         addUpFacts();
         progress.advance();
 
-        const MeasuredSurface displaced({mesh.positions, mesh.indices});
+        // The tree has its own copy of the triangles: what nobody draws is not kept beside it.
+        facts_ = {};
+        constexpr std::size_t kSamples = 200'000;
+        const MeasuredSurface displaced({mesh.positions, mesh.indices}, kSamples, TreeUse::lines);
+        if (!options_.wantsDistances) mesh = {};
         certificate_.distance.forth = measureOneWay(displaced, sculpt_);
         progress.advance();
         certificate_.distance.back = measureOneWay(sculpt_, displaced);
@@ -114,11 +118,11 @@ private:
         facts.isBehind = hit && hit->isBehindBack;
         const dvec3 q = frame.p + h * facts.normal;
         certificate_.displaced.positions[vertex] = vec3(q);
+        if (!options_.wantsDistances) return;
         const dvec2 slope(sample.hs, sample.ht); // of a map per face along u and v
         const dvec2 dh = map_.addressing == Addressing::faces ? slope : slope * tex.jacobian;
         const dvec3 full = hasPlane ? computeDisplacedNormals(frame, h, dh).full : facts.normal;
         certificate_.displaced.normals[vertex] = vec3(glm::length(full) > 0 ? glm::normalize(full) : facts.normal);
-        if (!options_.wantsDistances) return;
         // The hit is a point of the sculpt, and near: beyond it there is nothing to look for.
         const double limit =
             hit ? 2 * std::abs(h - hit->height) + 0.01 * (options_.lines.reach.front + options_.lines.reach.back)
@@ -131,6 +135,9 @@ private:
     void makeTriangles() {
         const int n = certificate_.rate;
         std::vector<std::uint32_t>& indices = certificate_.displaced.indices;
+        const auto perSide = std::size_t(n);
+        certificate_.triangleCount = faces_.size() * perSide * perSide * (sideCount_ == 4 ? 2 : 1);
+        indices.reserve(3 * certificate_.triangleCount);
         for (std::size_t face = 0; face < faces_.size(); ++face)
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < rowEnd(j); ++i) {

@@ -42,22 +42,39 @@ struct Link {
     bool runsAlike; ///< one of them is to be turned
 };
 
-/// Neighbours of triangles: links sorted by their first triangle.
-std::vector<Link> findLinks(const std::vector<Side>& sides, SculptFaults& faults) {
-    std::vector<Link> links;
+/// Calls `take` with all sides along each edge.
+template <typename Take>
+void forEachEdge(std::span<const Side> sides, const Take& take) {
     for (std::size_t first = 0; first < sides.size();) {
         std::size_t end = first + 1;
         while (end < sides.size() && sides[end].isAt(sides[first])) ++end;
-        if (end - first == 1) ++faults.boundaryCount;
-        if (end - first > 2) ++faults.nonManifoldCount;
-        if (end - first == 2) {
-            const Side &a = sides[first], &b = sides[first + 1];
-            const bool runsAlike = a.isReversed() == b.isReversed();
-            links.push_back({a.triangle / 2, b.triangle / 2, runsAlike});
-            links.push_back({b.triangle / 2, a.triangle / 2, runsAlike});
-        }
+        take(sides.subspan(first, end - first));
         first = end;
     }
+}
+
+bool runAlike(std::span<const Side> pair) { return pair[0].isReversed() == pair[1].isReversed(); }
+
+/// Counts edges; returns how many have two triangles that run along them in one direction.
+std::uint64_t countEdges(std::span<const Side> sides, SculptFaults& faults) {
+    std::uint64_t alikeCount = 0;
+    forEachEdge(sides, [&](std::span<const Side> edge) {
+        if (edge.size() == 1) ++faults.boundaryCount;
+        if (edge.size() > 2) ++faults.nonManifoldCount;
+        if (edge.size() == 2 && runAlike(edge)) ++alikeCount;
+    });
+    return alikeCount;
+}
+
+/// Neighbours of triangles along edges of two.
+std::vector<Link> findLinks(std::span<const Side> sides) {
+    std::vector<Link> links;
+    links.reserve(sides.size());
+    forEachEdge(sides, [&](std::span<const Side> edge) {
+        if (edge.size() != 2) return;
+        links.push_back({edge[0].triangle / 2, edge[1].triangle / 2, runAlike(edge)});
+        links.push_back({edge[1].triangle / 2, edge[0].triangle / 2, runAlike(edge)});
+    });
     return links;
 }
 
@@ -140,8 +157,13 @@ TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates,
 
 SculptFaults windAlike(TriangleMesh& mesh) {
     SculptFaults faults;
-    std::vector<Link> links = findLinks(sortedSides(mesh), faults);
-    if (std::ranges::none_of(links, &Link::runsAlike)) return faults;
+    // Links take twice the memory of a mesh: most need none.
+    std::vector<Link> links;
+    {
+        const std::vector<Side> sides = sortedSides(mesh);
+        if (countEdges(sides, faults) == 0) return faults;
+        links = findLinks(sides);
+    }
     const std::vector<bool> isTurned = chooseTurned(mesh.indices.size() / 3, std::move(links), faults);
     for (std::size_t i = 0; i < isTurned.size(); ++i)
         if (isTurned[i]) ++faults.turnedCount, std::swap(mesh.indices[3 * i + 1], mesh.indices[3 * i + 2]);
