@@ -4,7 +4,7 @@
 #include <set>
 
 #include "base/clock.h"
-#include "formula/shader_cache.h"
+#include "gpu/shader_cache.h"
 #include "formula/sources.h"
 
 namespace relief {

@@ -1,12 +1,15 @@
 #include "gpu/gpu.h"
 #include "gpu/pipeline_cache.h"
+#include "gpu/specialize.h"
 
 namespace relief {
 namespace {
 
-Owned<VkShaderModule> makeModule(Device& device, std::span<const std::uint32_t> code) {
+Owned<VkShaderModule> makeModule(Device& device, std::span<const std::uint32_t> stageCode,
+                                 std::span<const std::uint32_t> constants) {
+    const std::vector<std::uint32_t> code = specialize(stageCode, constants);
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    info.codeSize = code.size_bytes();
+    info.codeSize = code.size() * 4;
     info.pCode = code.data();
     VkShaderModule module = VK_NULL_HANDLE;
     checkVulkan(vkCreateShaderModule(device.handle(), &info, nullptr, &module), "vkCreateShaderModule");
@@ -82,7 +85,7 @@ Pipeline makeGraphics(Device& device, const GraphicsDesc& desc) {
     std::vector<Owned<VkShaderModule>> modules;
     std::vector<VkPipelineShaderStageCreateInfo> stages;
     for (const Stage& stage : desc.stages) {
-        modules.push_back(makeModule(device, stage.code));
+        modules.push_back(makeModule(device, stage.code, desc.constants));
         stages.push_back(stageInfo(stage.stage, modules.back().get(), constants));
     }
 
@@ -149,7 +152,7 @@ Pipeline makeCompute(Device& device, const ComputeDesc& desc) {
     pipeline.bindPoint = VK_PIPELINE_BIND_POINT_COMPUTE;
     makeLayout(device, desc.layout, pipeline);
     const Constants constants(desc.constants);
-    const Owned<VkShaderModule> module = makeModule(device, desc.stage.code);
+    const Owned<VkShaderModule> module = makeModule(device, desc.stage.code, desc.constants);
     VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), constants);
     info.layout = pipeline.layout.get();

@@ -30,6 +30,8 @@ const std::map<std::string, std::string> kPackageOf = {
     {"imgui", "libimgui-dev"},
     {"stb", "libimgui-dev"},        // through libstb-dev, which it depends on
     {"spirv-opt", "glslang-tools"}, // through spirv-tools, which it depends on
+    {"SPIRV-Tools", "glslang-tools"},
+    {"SPIRV-Tools-opt", "glslang-tools"},
     {"glm/glm.hpp", "libglm-dev"},
     {"tiny_gltf.h", "libtinygltf-dev"},
     {"OpenImageIO/imageio.h", "libopenimageio-dev"},

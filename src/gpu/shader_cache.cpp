@@ -1,9 +1,12 @@
-#include "formula/shader_cache.h"
+#include "gpu/shader_cache.h"
 
-#include <cstdlib>
+#include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
+
+#include "base/base.h"
 
 namespace relief {
 
@@ -40,6 +43,18 @@ Header headerOf(const Digest& digest, std::span<const std::uint32_t> words) {
 }
 
 std::string pathOf(const Digest& digest) { return cacheFolder() + "/" + digest.name() + ".spv"; }
+
+/// Removes the older half where there are too many. Another process may be doing the same.
+void removeOldShaders(const fs::path& folder) {
+    std::error_code ignored;
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+        if (entry.path().extension() == ".spv") files.emplace_back(entry.last_write_time(ignored), entry.path());
+    if (files.size() <= kMostCachedShaders) return;
+    std::ranges::sort(files);
+    files.resize(files.size() / 2);
+    for (const auto& [time, path] : files) fs::remove(path, ignored);
+}
 
 } // namespace
 
@@ -83,6 +98,7 @@ void writeCachedShader(const Digest& digest, std::span<const std::uint32_t> word
     bytes.append(reinterpret_cast<const char*>(words.data()), words.size_bytes());
     try {
         writeFile(pathOf(digest), bytes);
+        removeOldShaders(folder);
     } catch (const Error&) { // a full disk, a folder of somebody else: then it is compiled again the next time
     }
 }

@@ -1,7 +1,12 @@
-// Internal: compiled shaders in files.
+// Compiled shaders in files, by what they are made of.
 #pragma once
 
-#include "formula/compile.h"
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace relief {
 
@@ -16,9 +21,12 @@ struct Digest {
 /// Of nothing yet.
 Digest makeDigest();
 
+constexpr std::size_t kMostCachedShaders = 1000; ///< about 50 MB
+
 /// The words that were kept under a digest; nothing where there are none or their file is not whole.
 std::optional<std::vector<std::uint32_t>> readCachedShader(const Digest& digest);
-/// Keeps words, whole or not at all. Nothing happens where the folder cannot be written.
+/// Keeps words, whole or not at all, and the newest kMostCachedShaders of all that were kept. Nothing happens where the
+/// folder cannot be written.
 void writeCachedShader(const Digest& digest, std::span<const std::uint32_t> words);
 
 } // namespace relief
