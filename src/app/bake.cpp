@@ -39,7 +39,6 @@ void describeMap(BakeReport& report, const HeightMap& map) {
 
 int bake(const BakeArgs& args) {
     checkBakeArgs(args);
-    mallopt(M_MMAP_THRESHOLD, 1 << 20); // arrays of a sculpt's size go back to the system as soon as they are freed
     const Warn warn = makeWarn(args.output.isQuiet);
     BakeReport report{.cage = args.object.cage,
                       .sculpt = args.sculpt,
@@ -59,6 +58,7 @@ int bake(const BakeArgs& args) {
         map = bakeMaps(args, pair, report);
         map.scale /= pair.unit;
     }
+    malloc_trim(0); // what baking has freed is for the certificate
     describeMap(report, map);
     report.bakeSeconds = secondsNow() - bakeStart;
 

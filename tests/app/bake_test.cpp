@@ -197,6 +197,11 @@ TEST_F(Bake, refusesWhatCannotBeBaked) {
     expect({cage, sculpt, "-o", map, "--cage", cagePath("cube")}, Failure::input, {"cube.obj", "are not those of"});
     putFile(folder / "point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
     expect({cage, folder / "point.obj", "-o", map}, Failure::input, {"point.obj", "has an area"});
+    const Outcome fullPerFace = shell("ulimit -f 8; exec \"$RELIEF\" bake " + cage +
+                                          " $IN/sculpt.ply -o $IN/map.exr -q --per-face --size 256,256",
+                                      folder);
+    expectRefused(fullPerFace, Failure::file, {"map.exr", "cannot be written"});
+    EXPECT_EQ(readFile(map), "an old map");
     const Outcome full = shell("ulimit -f 8; exec \"$RELIEF\" bake " + cage +
                                    " $IN/sculpt.ply -o $IN/map.exr -q "
                                    "--size 256,256",
