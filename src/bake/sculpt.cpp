@@ -9,31 +9,46 @@
 namespace relief {
 namespace {
 
-/// A side of a triangle, by its ends in ascending order.
+/// A side of a triangle, listed with the lower of its ends.
 struct Side {
-    std::uint32_t low, high;
-    std::uint32_t triangle; ///< times two, plus 1 where the triangle runs from `high` to `low`
+    std::uint32_t high;     ///< the other end
+    std::uint32_t triangle; ///< times two, plus 1 where the triangle runs from `high` to the lower end
 
     [[nodiscard]] bool isReversed() const { return (triangle & 1) != 0; }
-    [[nodiscard]] bool isAt(const Side& other) const { return low == other.low && high == other.high; }
+    auto operator<=>(const Side&) const = default;
 };
 
-std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-    const UniquePoints unique = findUniquePoints(mesh.positions);
+/// The sides of all triangles by their lower ends: those of an edge are beside each other.
+struct Sides {
+    std::vector<std::uint32_t> firsts; ///< per lower end, and the end
     std::vector<Side> sides;
-    sides.reserve(mesh.indices.size());
+};
+
+/// Calls `take(low, side)` for all sides that have a length.
+template <typename Take>
+void forEachSide(const TriangleMesh& mesh, const UniquePoints& unique, const Take& take) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = unique.indices[mesh.indices[i + k]],
                                 b = unique.indices[mesh.indices[i + (k + 1) % 3]];
-            if (a == b) continue;
-            sides.push_back({std::min(a, b), std::max(a, b), std::uint32_t(i / 3 * 2) + (a > b ? 1 : 0)});
+            if (a != b) take(std::min(a, b), Side{std::max(a, b), std::uint32_t(i / 3 * 2) + (a > b ? 1 : 0)});
         }
-    std::ranges::sort(sides, [](const Side& a, const Side& b) {
-        return std::pair(std::uint64_t(a.low) << 32 | a.high, a.triangle) <
-               std::pair(std::uint64_t(b.low) << 32 | b.high, b.triangle);
-    });
-    return sides;
+}
+
+Sides sortSides(const TriangleMesh& mesh) {
+    // Counted, then put where they belong, then sorted among few: as much memory as the triangles, and no more.
+    const UniquePoints unique = findUniquePoints(mesh.positions);
+    Sides sorted;
+    sorted.firsts.assign(unique.count() + 2, 0);
+    forEachSide(mesh, unique, [&](std::uint32_t low, const Side&) { ++sorted.firsts[low + 2]; });
+    for (std::size_t i = 2; i < sorted.firsts.size(); ++i) sorted.firsts[i] += sorted.firsts[i - 1];
+    sorted.sides.resize(sorted.firsts.back());
+    forEachSide(mesh, unique,
+                [&](std::uint32_t low, const Side& side) { sorted.sides[sorted.firsts[low + 1]++] = side; });
+    sorted.firsts.pop_back();
+    for (std::size_t low = 0; low + 1 < sorted.firsts.size(); ++low)
+        std::sort(sorted.sides.begin() + sorted.firsts[low], sorted.sides.begin() + sorted.firsts[low + 1]);
+    return sorted;
 }
 
 /// Two triangles along one edge.
@@ -44,19 +59,20 @@ struct Link {
 
 /// Calls `take` with all sides along each edge.
 template <typename Take>
-void forEachEdge(std::span<const Side> sides, const Take& take) {
-    for (std::size_t first = 0; first < sides.size();) {
-        std::size_t end = first + 1;
-        while (end < sides.size() && sides[end].isAt(sides[first])) ++end;
-        take(sides.subspan(first, end - first));
-        first = end;
-    }
+void forEachEdge(const Sides& sorted, const Take& take) {
+    for (std::size_t low = 0; low + 1 < sorted.firsts.size(); ++low)
+        for (std::size_t first = sorted.firsts[low]; first < sorted.firsts[low + 1];) {
+            std::size_t end = first + 1;
+            while (end < sorted.firsts[low + 1] && sorted.sides[end].high == sorted.sides[first].high) ++end;
+            take(std::span(sorted.sides).subspan(first, end - first));
+            first = end;
+        }
 }
 
 bool runAlike(std::span<const Side> pair) { return pair[0].isReversed() == pair[1].isReversed(); }
 
 /// Counts edges; returns how many have two triangles that run along them in one direction.
-std::uint64_t countEdges(std::span<const Side> sides, SculptFaults& faults) {
+std::uint64_t countEdges(const Sides& sides, SculptFaults& faults) {
     std::uint64_t alikeCount = 0;
     forEachEdge(sides, [&](std::span<const Side> edge) {
         if (edge.size() == 1) ++faults.boundaryCount;
@@ -67,9 +83,9 @@ std::uint64_t countEdges(std::span<const Side> sides, SculptFaults& faults) {
 }
 
 /// Neighbours of triangles along edges of two.
-std::vector<Link> findLinks(std::span<const Side> sides) {
+std::vector<Link> findLinks(const Sides& sides) {
     std::vector<Link> links;
-    links.reserve(sides.size());
+    links.reserve(sides.sides.size());
     forEachEdge(sides, [&](std::span<const Side> edge) {
         if (edge.size() != 2) return;
         links.push_back({edge[0].triangle / 2, edge[1].triangle / 2, runAlike(edge)});
@@ -160,7 +176,7 @@ SculptFaults windAlike(TriangleMesh& mesh) {
     // Links take twice the memory of a mesh: most need none.
     std::vector<Link> links;
     {
-        const std::vector<Side> sides = sortedSides(mesh);
+        const Sides sides = sortSides(mesh);
         if (countEdges(sides, faults) == 0) return faults;
         links = findLinks(sides);
     }
