@@ -100,11 +100,11 @@ BakePair::BakePair(const BakeArgs& args, const Warn& warn)
 }
 
 MeasuredSurface BakePair::loadSculpt(const BakeArgs& args, const Warn& warn) {
-    const TriangleMesh mesh = readTriangleSculpt(args, object.cage.coordinates, warn);
+    TriangleMesh mesh = readTriangleSculpt(args, object.cage.coordinates, warn);
     sculptBox = computeBounds(mesh.positions);
     triangleCount = mesh.indices.size() / 3;
     constexpr std::size_t kSamples = 200'000;
-    return MeasuredSurface({mesh.positions, mesh.indices}, kSamples, TreeUse::lines);
+    return MeasuredSurface::ofMesh(std::move(mesh), kSamples, TreeUse::lines);
 }
 
 } // namespace relief::app

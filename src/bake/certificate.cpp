@@ -58,11 +58,9 @@ public:
         addUpFacts();
         progress.advance();
 
-        // The tree has its own copy of the triangles: what nobody draws is not kept beside it.
+        // What nobody draws is not kept beside the tree.
         facts_ = {};
-        constexpr std::size_t kSamples = 200'000;
-        const MeasuredSurface displaced({mesh.positions, mesh.indices}, kSamples, TreeUse::lines);
-        if (!options_.wantsDistances) mesh = {};
+        const MeasuredSurface displaced = takeSurface(mesh);
         certificate_.distance.forth = measureOneWay(displaced, sculpt_);
         progress.advance();
         certificate_.distance.back = measureOneWay(sculpt_, displaced);
@@ -71,6 +69,14 @@ public:
     }
 
 private:
+    /// Of the triangles themselves, unless they are drawn afterwards.
+    MeasuredSurface takeSurface(DenseMesh& mesh) const {
+        constexpr std::size_t kSamples = 200'000;
+        if (options_.wantsDistances) return MeasuredSurface({mesh.positions, mesh.indices}, kSamples, TreeUse::lines);
+        return MeasuredSurface::ofMesh({.positions = std::move(mesh.positions), .indices = std::move(mesh.indices)},
+                                       kSamples, TreeUse::lines);
+    }
+
     void onEachFace(const std::function<void(std::size_t)>& work) {
         std::atomic<std::size_t> next = 0;
         std::vector<std::future<void>> threads;
