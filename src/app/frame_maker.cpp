@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include <malloc.h>
-
 #include "app/empty.h"
 #include "app/frames.h"
 #include "base/clock.h"
@@ -109,15 +107,7 @@ void FrameMaker::makeModel() {
                                                    .heightSpace = args_.scene.object.height.space,
                                                    .restPositions = object.cage.positions,
                                                    .keepsBefore = wantsMotion(args_.picture)});
-    // All of these are on the device now.
-    object.surface = {};
-    object.height.reset();
-    object.heightEncoding = {};
-    object.dense.reset();
-    object.albedo.reset();
-    object.normalMap.reset();
-    loaded_.environment.reset();
-    malloc_trim(0);
+    freeHostCopies(loaded_);
 }
 
 /// The box around the object in the pose that is drawn, or in all poses where the device does not move it.

@@ -1,3 +1,5 @@
+#include <malloc.h>
+
 #include "base/clock.h"
 #include "scene/loading.h"
 
@@ -202,6 +204,19 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
     splitForTangents(scene.object);
     loadLight(scene, desc);
     return scene;
+}
+
+void freeHostCopies(LoadedScene& scene) {
+    LoadedObject& object = scene.object;
+    object.surface = {};
+    object.height.reset();
+    object.heightEncoding = {};
+    object.dense.reset();
+    object.albedo.reset();
+    object.normalMap.reset();
+    scene.environment.reset();
+    scene.matcap.reset();
+    malloc_trim(0); // the C library would keep what is small
 }
 
 } // namespace relief

@@ -131,6 +131,10 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn);
 /// Loads the object and the environment of a scene. Warns of subdivision tags on polygons that are drawn themselves.
 LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
 
+/// Frees what the device holds by now: the surface's tables, maps, textures, dense polygons. The cage and its motion
+/// stay.
+void freeHostCopies(LoadedScene& scene);
+
 /// Joins boundary vertices of a cage that nothing moves. Throws Failure::usage when no face is left.
 Cage weldCage(Cage cage, const std::optional<Distance>& distance);
 

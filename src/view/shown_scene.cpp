@@ -4,8 +4,6 @@
 #include <cmath>
 #include <map>
 
-#include <malloc.h>
-
 #include "base/clock.h"
 
 namespace relief {
@@ -110,19 +108,10 @@ ShownScene::ShownScene(Device& device, const ViewDesc& desc, Prepared prepared)
         meshPoser_ = std::make_unique<MeshPoser>(device, std::get<MeshModel>(*model_), *object.dense, Rig());
     }
 
-    // All of these are on the device now.
     edges_ = listCageEdges(object.cage);
     cagePoints_ = object.cage.positions;
-    object.surface = {};
-    object.height.reset();
-    object.heightEncoding = {};
-    object.dense.reset();
-    object.albedo.reset();
-    object.normalMap.reset();
-    loaded_.environment.reset();
-    loaded_.matcap.reset();
     device.submitUploads();
-    malloc_trim(0);
+    freeHostCopies(loaded_);
 }
 
 double ShownScene::secondsOf(int frame) const { return frame / look_.scene.object.motion.cache.fps; }
