@@ -1,5 +1,6 @@
 #include "app/bake_options.h"
 
+#include <bit>
 #include <cmath>
 
 #include "app/heatmap.h"
@@ -53,6 +54,14 @@ void addLines(CLI::App& app, BakeArgs& args) {
                "--max-distance", [&args](const std::string& words) { parseReach(words, args); },
                "how far lines reach along the normals and against them: cage units, or a percentage of the sculpt's "
                "diagonal (default: 5%)"));
+    listIn(group, "FILE",
+           app.add_option("--cage", args.lineCage,
+                          "the cage with its vertices moved outwards: lines begin as high as its surface is and look "
+                          "inwards, and the first hit is the height: .obj .gltf .glb"));
+    app.add_flag("--smooth-cage", args.smoothCage,
+                 "as --cage with the cage itself, its vertices moved along normals that are smooth across sharp edges, "
+                 "as far as --max-distance")
+        ->group(group);
     app.add_flag("--drop-behind", args.dropsBehind,
                  "a hit behind the back of another sheet is none: its texel is a void")
         ->group(group);
@@ -65,6 +74,56 @@ void addLines(CLI::App& app, BakeArgs& args) {
                    "how heights are written (default: float, unorm16 in .png)"));
     listIn(group, "PICTURE",
            app.add_option("--voids", args.voids, "picture to write of the texels whose lines miss: .png .tif .exr"));
+}
+
+/// Maps per face and their size.
+void addPerFace(CLI::App& app, BakeArgs& args) {
+    const char* group = "maps per face";
+    app.add_flag(
+           "--per-face", args.perFace,
+           "a map per face of the cage, which needs no texture coordinates, of about as many heights as --size has "
+           "texels")
+        ->group(group);
+    listIn(group, "N",
+           app.add_option("--face-size", args.faceSize, "segments along each side of each face, a power of two")
+               ->check(CLI::Range(1, 4096)));
+    listIn(group, "D",
+           app.add_option_function<std::string>(
+                  "--texel-size", [&args](const std::string& word) { args.texelSize = *parseDistance(word); },
+                  "length of a segment, of which each side has a power of two: cage units, or a percentage of the "
+                  "sculpt's diagonal")
+               ->check(distanceFromZero()));
+}
+
+/// Throws for what goes with another kind of map.
+void checkKind(const BakeArgs& args) {
+    if (!args.perFace) {
+        if (args.faceSize || args.texelSize)
+            fail(Failure::usage, "{} is for maps with --per-face", args.faceSize ? "--face-size" : "--texel-size");
+        const bool isSet = findTilePattern(args.target).has_value();
+        if (isSet && args.object.height.wrap)
+            fail(Failure::usage, "{}: a set of tiles does not repeat; omit --wrap", args.target);
+        std::vector<std::string> others;
+        for (const LayerFile& file : listLayers(args)) others.push_back(file.path);
+        if (!args.voids.empty()) others.push_back(args.voids);
+        for (const std::string& path : others)
+            if (findTilePattern(path).has_value() != isSet)
+                fail(Failure::usage, "{} and {}: all maps are sets of tiles, or none is", args.target, path);
+        return;
+    }
+    if (args.checksOnly) fail(Failure::usage, "--check reads from the map's header whether it is one per face");
+    if (args.faceSize && args.texelSize) fail(Failure::usage, "--face-size and --texel-size: give one of them");
+    if (args.faceSize && !std::has_single_bit(unsigned(*args.faceSize)))
+        fail(Failure::usage, "--face-size {}: a face has 1, 2, 4, ... 4096 segments per side", *args.faceSize);
+    if (args.texelSize && !(args.texelSize->value > 0)) fail(Failure::usage, "--texel-size 0 has no length");
+    if (!listLayers(args).empty() || !args.voids.empty())
+        fail(Failure::usage, "{}: --per-face makes heights alone; other maps lie over texture coordinates",
+             args.voids.empty() ? listLayers(args).front().path : args.voids);
+    if (lowerExtension(args.target) != ".exr" || args.sample.value_or(SampleType::real) != SampleType::real ||
+        findTilePattern(args.target))
+        fail(Failure::usage, "{}: a map per face is one .exr of floats", args.target);
+    if (args.object.height.mid || args.object.height.scale || args.object.height.wrap)
+        fail(Failure::usage, "--per-face has heights in cage units that do not repeat; omit --mid, --scale and --wrap");
 }
 
 /// Other maps of the same lines.
@@ -107,6 +166,8 @@ void addCertificate(CLI::App& app, BakeArgs& args) {
 
 } // namespace
 
+int BakeArgs::samplesPerSide() const { return int(std::ceil(std::sqrt(double(sampleCount)) - 1e-9)); }
+
 std::vector<LayerFile> listLayers(const BakeArgs& args) {
     const SculptLayer normal =
         args.normalSpace == NormalSpace::tangent ? SculptLayer::tangentNormal : SculptLayer::objectNormal;
@@ -138,7 +199,7 @@ SampleType chooseHeightSample(const BakeArgs& args) {
 }
 
 void checkBakeArgs(const BakeArgs& args) {
-    const std::vector<std::string> inputs{args.object.cage, args.sculpt, args.object.height.path};
+    const std::vector<std::string> inputs{args.object.cage, args.sculpt, args.object.height.path, args.lineCage};
     if (args.checksOnly) {
         if (args.object.height.path.empty()) fail(Failure::usage, "--check needs the map: name it with --height");
         if (!args.target.empty() || !args.voids.empty() || !listLayers(args).empty())
@@ -151,6 +212,9 @@ void checkBakeArgs(const BakeArgs& args) {
         chooseHeightSample(args);
         checkOutput(args.target, inputs);
     }
+    checkKind(args);
+    if (args.smoothCage && !args.lineCage.empty())
+        fail(Failure::usage, "--cage and --smooth-cage: lines begin on one of them");
     if (!args.voids.empty()) checkOutput(args.voids, inputs);
     for (const LayerFile& file : listLayers(args)) checkLayer(file, inputs);
     if (!args.heatmap.empty()) {
@@ -165,9 +229,13 @@ void addBakeOptions(CLI::App& app, BakeArgs& args) {
     app.add_option("sculpt", args.sculpt, "dense surface: .ply .stl .obj .gltf .glb")
         ->required()
         ->option_text("SCULPT");
-    app.add_option("-o,--output", args.target, "height map to write: .exr .tif .png")->option_text("HEIGHT");
+    app.add_option("-o,--output", args.target,
+                   "height map to write: .exr .tif .png; with <UDIM> in its name a set of tiles, those that "
+                   "faces lie in")
+        ->option_text("HEIGHT");
     addSurfaceOptions(app, args.object);
 
+    addPerFace(app, args);
     addLines(app, args);
     addOtherMaps(app, args);
     addCertificate(app, args);
@@ -180,6 +248,8 @@ void addBakeOptions(CLI::App& app, BakeArgs& args) {
         "written in either case.\n"
         "examples:\n"
         "  relief bake cage.obj sculpt.ply -o height.exr --size 2048,2048\n"
+        "  relief bake cage.obj sculpt.ply -o faces.exr --per-face\n"
+        "  relief bake cage.obj sculpt.ply -o 'height.<UDIM>.exr' --cage inflated.obj\n"
         "  relief bake cage.obj sculpt.ply --check --height height.exr --json");
 }
 

@@ -7,6 +7,15 @@
 namespace relief::app {
 namespace {
 
+constexpr Word<Addressing> kMapKinds[] = {
+    {"texture", Addressing::texture, ""}, {"tiles", Addressing::tiles, ""}, {"faces", Addressing::faces, ""}};
+
+std::string sizeOf(const BakeReport& report) {
+    if (report.addressing == Addressing::texture) return fmt::format("{} x {}", report.width, report.height);
+    return fmt::format("{} {}, up to {} x {}", report.tileCount, wordOf(kMapKinds, report.addressing), report.width,
+                       report.height);
+}
+
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
 std::string lineOf(const BakeReport& report, const char* name, const SampledDistance& distance) {
@@ -38,9 +47,9 @@ std::string toText(const BakeReport& report) {
     std::string text;
     const BakedHeights& baked = report.baked;
     if (report.isBaked)
-        text += fmt::format("{:<18} {} x {}, {} texels on the surface, {} of them voids ({:.2f} %)\n", "map",
-                            report.width, report.height, baked.texelCount, baked.voidCount,
-                            percent(double(baked.voidCount), double(baked.texelCount)));
+        text +=
+            fmt::format("{:<18} {}, {} texels on the surface, {} of them voids ({:.2f} %)\n", "map", sizeOf(report),
+                        baked.texelCount, baked.voidCount, percent(double(baked.voidCount), double(baked.texelCount)));
     text += fmt::format("{:<18} {:.6g} to {:.6g}; --mid {:.9g} --scale {:.9g}\n", "heights", report.lowest,
                         report.highest, report.mid, report.scale);
     const BakeCertificate& certificate = report.certificate;
@@ -65,6 +74,7 @@ nlohmann::json toJson(const BakeReport& report) {
                        {"sculpt", report.sculpt},
                        {"sculpt_triangles", report.sculptTriangles},
                        {"map", report.map},
+                       {"kind", wordOf(kMapKinds, report.addressing)},
                        {"width", report.width},
                        {"height", report.height},
                        {"mid", report.mid},
@@ -79,7 +89,7 @@ nlohmann::json toJson(const BakeReport& report) {
                        {"folded_share", certificate.foldedShare},
                        {"overturned_share", certificate.overturnedShare},
                        {"overturned_triangles", certificate.overturnedCount},
-                       {"certificate_triangles", certificate.displaced.indices.size() / 3},
+                       {"certificate_triangles", certificate.triangleCount},
                        {"certificate_rate", certificate.rate},
                        {"seam_gap", report.seams.max * report.unit},
                        {"seam_edges", report.seams.seamEdgeCount},
@@ -89,12 +99,14 @@ nlohmann::json toJson(const BakeReport& report) {
                        {"read_ms", 1e3 * report.readSeconds},
                        {"bake_ms", 1e3 * report.bakeSeconds},
                        {"certify_ms", 1e3 * report.certifySeconds}};
+    if (report.addressing != Addressing::texture) all["tiles"] = report.tileCount;
     if (report.isBaked)
         all.update({{"texels", report.baked.texelCount},
                     {"voids", report.baked.voidCount},
                     {"samples", report.baked.sampleCount},
                     {"missed_samples", report.baked.missCount},
                     {"wrong_sheet_samples", report.baked.behindCount},
+                    {"cage_inside_samples", report.baked.insideCount},
                     {"overlapping_samples", report.overlap.sampleCount}});
     return all;
 }

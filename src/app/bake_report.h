@@ -13,7 +13,9 @@ namespace relief::app {
 /// Everything that is known of a pair of a map and a sculpt, in cage units.
 struct BakeReport {
     std::string cage, sculpt, map;
-    int width = 0, height = 0;
+    Addressing addressing = Addressing::texture;
+    std::size_t tileCount = 0;                          ///< of a set; of a map per face the faces
+    int width = 0, height = 0;                          ///< of the largest tile
     double mid = 0, scale = 1, lowest = 0, highest = 0; ///< of the map's values; lowest and highest are heights
     std::uint64_t sculptTriangles = 0;
     bool isBaked = false; ///< else the map was there before, and nothing is known of its texels

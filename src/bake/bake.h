@@ -5,8 +5,10 @@
 #include <array>
 
 #include "bake/certificate.h"
+#include "bake/face_texels.h"
 #include "bake/heights.h"
 #include "bake/layers.h"
+#include "bake/lines.h"
 #include "bake/sculpt.h"
 #include "bake/texels.h"
 #include "displacement/displacement.h"

@@ -35,7 +35,8 @@ class Certifier {
 public:
     Certifier(const ReferenceSurface& surface, const HeightMap& map, const MeasuredSurface& sculpt,
               const BakeCertificateOptions& options)
-        : surface_(surface), map_(map), sculpt_(sculpt), options_(options), sideCount_(surface.sideCount()) {
+        : surface_(surface), map_(map), sculpt_(sculpt), options_(options), lines_(surface, sculpt, options.lines),
+          sideCount_(surface.sideCount()) {
         for (int face = 0; face < surface.faceCount(); ++face)
             if (!surface.isHole(face)) faces_.push_back(face);
         const double perFace = double(options.triangleCount) / double(std::max<std::size_t>(faces_.size(), 1));
@@ -48,7 +49,7 @@ public:
         Progress progress("certifying", 4, options_.progress);
         DenseMesh& mesh = certificate_.displaced;
         mesh.positions.resize(faces_.size() * perFace_);
-        mesh.normals.resize(mesh.positions.size());
+        if (options_.wantsDistances) mesh.normals.resize(mesh.positions.size());
         if (options_.wantsDistances) mesh.heights.resize(mesh.positions.size());
         facts_.resize(mesh.positions.size());
         onEachFace([this](std::size_t i) { displaceFace(i); });
@@ -57,7 +58,9 @@ public:
         addUpFacts();
         progress.advance();
 
-        const MeasuredSurface displaced({mesh.positions, mesh.indices});
+        // What nobody draws is not kept beside the tree.
+        facts_ = {};
+        const MeasuredSurface displaced = takeSurface(mesh);
         certificate_.distance.forth = measureOneWay(displaced, sculpt_);
         progress.advance();
         certificate_.distance.back = measureOneWay(sculpt_, displaced);
@@ -66,6 +69,14 @@ public:
     }
 
 private:
+    /// Of the triangles themselves, unless they are drawn afterwards.
+    MeasuredSurface takeSurface(DenseMesh& mesh) const {
+        constexpr std::size_t kSamples = 200'000;
+        if (options_.wantsDistances) return MeasuredSurface({mesh.positions, mesh.indices}, kSamples, TreeUse::lines);
+        return MeasuredSurface::ofMesh({.positions = std::move(mesh.positions), .indices = std::move(mesh.indices)},
+                                       kSamples, TreeUse::lines);
+    }
+
     void onEachFace(const std::function<void(std::size_t)>& work) {
         std::atomic<std::size_t> next = 0;
         std::vector<std::future<void>> threads;
@@ -94,18 +105,18 @@ private:
     [[nodiscard]] std::optional<LineHit> look(int face, const dvec2& uv) const {
         constexpr double kInwards = 1e-3;
         const dvec2 inside = glm::mix(uv, dvec2(sideCount_ == 4 ? 1.0 / 2 : 1.0 / 3), kInwards);
-        return sculpt_.nearestOnLine(surface_.limit(face, inside).p, surface_.normal(face, inside), options_.reach,
-                                     options_.facing);
+        return lines_.find(lines_.lineAt(face, inside));
     }
 
     void displaceVertex(int face, const dvec2& uv, std::size_t vertex) {
-        const LimitFrame frame = surface_.limit(face, uv);
+        const SculptLines::Line line = lines_.lineAt(face, uv);
+        const LimitFrame& frame = line.frame;
         const TexFrame tex = surface_.texture(face, uv);
-        const HeightSample sample = sampleHeight(map_, tex.st);
+        const HeightSample sample = sampleHeight(map_, {.face = face, .uv = uv, .st = tex.st});
         const double h = sample.h;
         VertexFacts& facts = facts_[vertex];
         const bool hasPlane = frame.hasTangentPlane();
-        facts.normal = hasPlane ? glm::normalize(glm::cross(frame.pu, frame.pv)) : surface_.normal(face, uv);
+        facts.normal = line.direction;
         facts.area = glm::length(glm::cross(frame.pu, frame.pv));
         facts.isFolded = hasPlane && computeFoldFactor(frame, h) <= 0;
         const std::optional<LineHit> hit = look(face, uv);
@@ -113,13 +124,15 @@ private:
         facts.isBehind = hit && hit->isBehindBack;
         const dvec3 q = frame.p + h * facts.normal;
         certificate_.displaced.positions[vertex] = vec3(q);
-        const dvec2 slope(sample.hs, sample.ht);
-        const dvec3 full = hasPlane ? computeDisplacedNormals(frame, h, slope * tex.jacobian).full : facts.normal;
-        certificate_.displaced.normals[vertex] = vec3(glm::length(full) > 0 ? glm::normalize(full) : facts.normal);
         if (!options_.wantsDistances) return;
+        const dvec2 slope(sample.hs, sample.ht); // of a map per face along u and v
+        const dvec2 dh = map_.addressing == Addressing::faces ? slope : slope * tex.jacobian;
+        const dvec3 full = hasPlane ? computeDisplacedNormals(frame, h, dh).full : facts.normal;
+        certificate_.displaced.normals[vertex] = vec3(glm::length(full) > 0 ? glm::normalize(full) : facts.normal);
         // The hit is a point of the sculpt, and near: beyond it there is nothing to look for.
-        const double limit = hit ? 2 * std::abs(h - hit->height) + 0.01 * (options_.reach.front + options_.reach.back)
-                                 : std::numeric_limits<double>::infinity();
+        const double limit =
+            hit ? 2 * std::abs(h - hit->height) + 0.01 * (options_.lines.reach.front + options_.lines.reach.back)
+                : std::numeric_limits<double>::infinity();
         double distance = sculpt_.distance(q, limit);
         if (!std::isfinite(distance)) distance = sculpt_.distance(q);
         certificate_.displaced.heights[vertex] = float(hit ? distance : -distance);
@@ -128,6 +141,9 @@ private:
     void makeTriangles() {
         const int n = certificate_.rate;
         std::vector<std::uint32_t>& indices = certificate_.displaced.indices;
+        const auto perSide = std::size_t(n);
+        certificate_.triangleCount = faces_.size() * perSide * perSide * (sideCount_ == 4 ? 2 : 1);
+        indices.reserve(3 * certificate_.triangleCount);
         for (std::size_t face = 0; face < faces_.size(); ++face)
             for (int j = 0; j < n; ++j)
                 for (int i = 0; i < rowEnd(j); ++i) {
@@ -172,6 +188,7 @@ private:
     const HeightMap& map_;
     const MeasuredSurface& sculpt_;
     BakeCertificateOptions options_;
+    SculptLines lines_;
     int sideCount_;
     std::vector<int> faces_;
     std::size_t perFace_ = 0;

@@ -1,16 +1,16 @@
 // The proof of a baked map: the surface displaced by it, measured against the sculpt.
 #pragma once
 
+#include "bake/lines.h"
 #include "displacement/displacement.h"
 #include "distance/distance.h"
 
 namespace relief {
 
 struct BakeCertificateOptions {
-    LineReach reach;
-    Facing facing = Facing::front;
+    LineSearch lines;
     std::uint64_t triangleCount = 1'000'000; ///< about so many of the displaced surface
-    bool wantsDistances = false;             ///< of the vertices of BakeCertificate::displaced
+    bool wantsDistances = false;             ///< fill in BakeCertificate::displaced
     ShowProgress progress = ShowProgress::never;
 };
 
@@ -22,8 +22,11 @@ struct BakeCertificate {
     double foldedShare = 0;     ///< 1 + h kappa <= 0 for a principal curvature kappa (dn = kappa dp)
     double overturnedShare = 0; ///< displaced triangles that face against the limit normal
     std::uint64_t overturnedCount = 0;
-    int rate = 0;        ///< segments that each side of a face is cut into
-    DenseMesh displaced; ///< `heights`: distance to the sculpt per vertex, negative where its line misses
+    int rate = 0;                    ///< segments that each side of a face is cut into
+    std::uint64_t triangleCount = 0; ///< of the displaced surface
+    /// With BakeCertificateOptions::wantsDistances the displaced surface, else empty. `heights`: distance to the sculpt
+    /// per vertex, negative where its line misses.
+    DenseMesh displaced;
 };
 
 /// Displaces the surface by the map in double precision and measures it against the sculpt. The sides of all faces are

@@ -19,12 +19,13 @@ class HeightBaker {
 public:
     HeightBaker(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const TexelSource& texels,
                 const BakeOptions& options)
-        : surface_(surface), sculpt_(sculpt), texels_(texels), options_(options),
+        : texels_(texels), faceCount_(surface.faceCount()), options_(options), lines_(surface, sculpt, options_.lines),
           layers_(surface, sculpt, options_.layers), channelCount_(std::size_t(layers_.channelCount())),
           progress_("baking", std::uint64_t(texels.height()), options.progress, "rows") {}
 
     BakedHeights bake() {
         map_.width = texels_.width(), map_.height = texels_.height();
+        map_.seenFaces.assign(std::size_t(faceCount_), false);
         const std::size_t count = std::size_t(map_.width) * std::size_t(map_.height);
         map_.heights.assign(count, 0);
         map_.states.assign(count, TexelState::outside);
@@ -71,19 +72,18 @@ private:
             if (sums[i].layerCount > 0) putLayers(firstTexel + i, sums[i].layerCount, &channels[i * channelCount_]);
         }
         const std::lock_guard lock(mutex_);
+        for (const TexelSample& sample : samples)
+            if (sample.isInside) map_.seenFaces[std::size_t(sample.face)] = true;
         map_.texelCount += counts.texelCount, map_.voidCount += counts.voidCount;
         map_.sampleCount += counts.sampleCount, map_.missCount += counts.missCount;
-        map_.behindCount += counts.behindCount;
+        map_.behindCount += counts.behindCount, map_.insideCount += counts.insideCount;
         progress_.advance(std::uint64_t(count));
     }
 
     /// True where the sample has layers, which it leaves in `channels`.
     bool addSample(const TexelSample& sample, Sums& sums, std::span<double> channels, BakedHeights& counts) const {
-        const dvec2 uv(sample.uv);
-        const LimitFrame frame = surface_.limit(sample.face, uv);
-        const dvec3 normal =
-            frame.hasTangentPlane() ? glm::normalize(glm::cross(frame.pu, frame.pv)) : surface_.normal(sample.face, uv);
-        std::optional<LineHit> hit = sculpt_.nearestOnLine(frame.p, normal, options_.reach, options_.facing);
+        const SculptLines::Line line = lines_.lineAt(sample.face, dvec2(sample.uv));
+        std::optional<LineHit> hit = lines_.find(line);
         const bool isBehind = hit && hit->isBehindBack;
         if (isBehind && options_.dropsBehind) hit.reset();
         sums.isAnywhere = true;
@@ -92,12 +92,13 @@ private:
             ++counts.sampleCount;
             counts.missCount += hit ? 0 : 1;
             counts.behindCount += isBehind ? 1 : 0;
+            counts.insideCount += line.start < 0 ? 1 : 0;
         }
         if (!hit) return false;
         sums.heights += double(sample.weight) * hit->height;
         sums.weights += double(sample.weight);
         if (channelCount_ == 0 || !sample.isInside) return false;
-        layers_.evaluate(sample, frame, normal, *hit, channels);
+        layers_.evaluate(sample, line.frame, line.direction, *hit, channels);
         sums.layerCount += 1;
         return true;
     }
@@ -139,10 +140,10 @@ private:
         counts.voidCount += sums.isInside && !isHit ? 1 : 0;
     }
 
-    const ReferenceSurface& surface_;
-    const MeasuredSurface& sculpt_;
     const TexelSource& texels_;
+    int faceCount_;
     BakeOptions options_;
+    SculptLines lines_;
     LayerSampler layers_;
     std::size_t channelCount_; ///< of all layers
     BakedHeights map_;
@@ -157,7 +158,7 @@ private:
 BakedHeights bakeHeights(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const TexelSource& texels,
                          const BakeOptions& options) {
     BakedHeights map = HeightBaker(surface, sculpt, texels, options).bake();
-    if (std::ranges::find(map.states, TexelState::hit) != map.states.end()) fillMissed(map, options.wrap);
+    if (std::ranges::find(map.states, TexelState::hit) != map.states.end()) fillMissed(map, texels);
     return map;
 }
 

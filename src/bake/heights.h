@@ -2,6 +2,7 @@
 #pragma once
 
 #include "bake/layers.h"
+#include "bake/lines.h"
 #include "bake/texels.h"
 #include "distance/distance.h"
 
@@ -14,11 +15,9 @@ enum class TexelState : std::uint8_t {
 };
 
 struct BakeOptions {
-    LineReach reach;               ///< of lines along the normal and against it
-    Facing facing = Facing::front; ///< of the triangles that count
-    Wrap wrap = Wrap::repeat;      ///< what lies outside of the map
-    bool dropsBehind = false;      ///< hits behind the back of another triangle are none
-    LayerOptions layers;           ///< what is baked besides
+    LineSearch lines;
+    bool dropsBehind = false; ///< hits behind the back of another triangle are none
+    LayerOptions layers;      ///< what is baked besides
     ShowProgress progress = ShowProgress::never;
 };
 
@@ -31,11 +30,12 @@ struct BakedHeights {
     std::uint64_t texelCount = 0, voidCount = 0;
     std::uint64_t sampleCount = 0, missCount = 0;
     std::uint64_t behindCount = 0; ///< samples whose line passes the back of another triangle first
+    std::vector<bool> seenFaces;   ///< faces that a sample lies in
+    std::uint64_t insideCount = 0; ///< samples where LineSearch::cage lies inside of the surface
 };
 
-/// Looks for the sculpt on the line through the limit point of each sample along the limit normal, in both directions;
-/// of the hits on the right side of triangles the nearest to the surface wins (Lee, Moreton and Hoppe 2000, section
-/// 4.4). On all cores; the result does not depend on how many there are.
+/// Looks for the sculpt on the line of each sample as SculptLines does. On all cores; the result does not depend on how
+/// many there are.
 /// Texels without a hit are filled: voids on the surface by a membrane between the texels around them (a discrete
 /// Laplace equation), all others by means of the heights around them. A map without any hit stays 0.
 /// Layers are means over the samples inside of islands; all texels without any are filled from around.

@@ -6,6 +6,6 @@
 namespace relief {
 
 /// Fills all texels that are not hit. At least one must be.
-void fillMissed(BakedHeights& map, Wrap wrap);
+void fillMissed(BakedHeights& map, const TexelSource& texels);
 
 } // namespace relief

@@ -9,31 +9,46 @@
 namespace relief {
 namespace {
 
-/// A side of a triangle, by its ends in ascending order.
+/// A side of a triangle, listed with the lower of its ends.
 struct Side {
-    std::uint32_t low, high;
-    std::uint32_t triangle; ///< times two, plus 1 where the triangle runs from `high` to `low`
+    std::uint32_t high;     ///< the other end
+    std::uint32_t triangle; ///< times two, plus 1 where the triangle runs from `high` to the lower end
 
     [[nodiscard]] bool isReversed() const { return (triangle & 1) != 0; }
-    [[nodiscard]] bool isAt(const Side& other) const { return low == other.low && high == other.high; }
+    auto operator<=>(const Side&) const = default;
 };
 
-std::vector<Side> sortedSides(const TriangleMesh& mesh) {
-    const UniquePoints unique = findUniquePoints(mesh.positions);
+/// The sides of all triangles by their lower ends: those of an edge are beside each other.
+struct Sides {
+    std::vector<std::uint32_t> firsts; ///< per lower end, and the end
     std::vector<Side> sides;
-    sides.reserve(mesh.indices.size());
+};
+
+/// Calls `take(low, side)` for all sides that have a length.
+template <typename Take>
+void forEachSide(const TriangleMesh& mesh, const UniquePoints& unique, const Take& take) {
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t a = unique.indices[mesh.indices[i + k]],
                                 b = unique.indices[mesh.indices[i + (k + 1) % 3]];
-            if (a == b) continue;
-            sides.push_back({std::min(a, b), std::max(a, b), std::uint32_t(i / 3 * 2) + (a > b ? 1 : 0)});
+            if (a != b) take(std::min(a, b), Side{std::max(a, b), std::uint32_t(i / 3 * 2) + (a > b ? 1 : 0)});
         }
-    std::ranges::sort(sides, [](const Side& a, const Side& b) {
-        return std::pair(std::uint64_t(a.low) << 32 | a.high, a.triangle) <
-               std::pair(std::uint64_t(b.low) << 32 | b.high, b.triangle);
-    });
-    return sides;
+}
+
+Sides sortSides(const TriangleMesh& mesh) {
+    // Counted, then put where they belong, then sorted among few: as much memory as the triangles, and no more.
+    const UniquePoints unique = findUniquePoints(mesh.positions);
+    Sides sorted;
+    sorted.firsts.assign(unique.count() + 2, 0);
+    forEachSide(mesh, unique, [&](std::uint32_t low, const Side&) { ++sorted.firsts[low + 2]; });
+    for (std::size_t i = 2; i < sorted.firsts.size(); ++i) sorted.firsts[i] += sorted.firsts[i - 1];
+    sorted.sides.resize(sorted.firsts.back());
+    forEachSide(mesh, unique,
+                [&](std::uint32_t low, const Side& side) { sorted.sides[sorted.firsts[low + 1]++] = side; });
+    sorted.firsts.pop_back();
+    for (std::size_t low = 0; low + 1 < sorted.firsts.size(); ++low)
+        std::sort(sorted.sides.begin() + sorted.firsts[low], sorted.sides.begin() + sorted.firsts[low + 1]);
+    return sorted;
 }
 
 /// Two triangles along one edge.
@@ -42,22 +57,40 @@ struct Link {
     bool runsAlike; ///< one of them is to be turned
 };
 
-/// Neighbours of triangles: links sorted by their first triangle.
-std::vector<Link> findLinks(const std::vector<Side>& sides, SculptFaults& faults) {
-    std::vector<Link> links;
-    for (std::size_t first = 0; first < sides.size();) {
-        std::size_t end = first + 1;
-        while (end < sides.size() && sides[end].isAt(sides[first])) ++end;
-        if (end - first == 1) ++faults.boundaryCount;
-        if (end - first > 2) ++faults.nonManifoldCount;
-        if (end - first == 2) {
-            const Side &a = sides[first], &b = sides[first + 1];
-            const bool runsAlike = a.isReversed() == b.isReversed();
-            links.push_back({a.triangle / 2, b.triangle / 2, runsAlike});
-            links.push_back({b.triangle / 2, a.triangle / 2, runsAlike});
+/// Calls `take` with all sides along each edge.
+template <typename Take>
+void forEachEdge(const Sides& sorted, const Take& take) {
+    for (std::size_t low = 0; low + 1 < sorted.firsts.size(); ++low)
+        for (std::size_t first = sorted.firsts[low]; first < sorted.firsts[low + 1];) {
+            std::size_t end = first + 1;
+            while (end < sorted.firsts[low + 1] && sorted.sides[end].high == sorted.sides[first].high) ++end;
+            take(std::span(sorted.sides).subspan(first, end - first));
+            first = end;
         }
-        first = end;
-    }
+}
+
+bool runAlike(std::span<const Side> pair) { return pair[0].isReversed() == pair[1].isReversed(); }
+
+/// Counts edges; returns how many have two triangles that run along them in one direction.
+std::uint64_t countEdges(const Sides& sides, SculptFaults& faults) {
+    std::uint64_t alikeCount = 0;
+    forEachEdge(sides, [&](std::span<const Side> edge) {
+        if (edge.size() == 1) ++faults.boundaryCount;
+        if (edge.size() > 2) ++faults.nonManifoldCount;
+        if (edge.size() == 2 && runAlike(edge)) ++alikeCount;
+    });
+    return alikeCount;
+}
+
+/// Neighbours of triangles along edges of two.
+std::vector<Link> findLinks(const Sides& sides) {
+    std::vector<Link> links;
+    links.reserve(sides.sides.size());
+    forEachEdge(sides, [&](std::span<const Side> edge) {
+        if (edge.size() != 2) return;
+        links.push_back({edge[0].triangle / 2, edge[1].triangle / 2, runAlike(edge)});
+        links.push_back({edge[1].triangle / 2, edge[0].triangle / 2, runAlike(edge)});
+    });
     return links;
 }
 
@@ -109,11 +142,29 @@ TriangleMesh triangulate(const Cage& cage) {
 
 } // namespace
 
-TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates, const Warn& warn) {
+namespace {
+
+/// In coordinates of the file's own, or in those that are asked for.
+TriangleMesh readAnyTriangles(const std::string& path, const Coordinates& coordinates, const Warn& warn) {
     if (isTriangleFile(path)) return readTriangles(path, coordinates);
     const bool isObj = lowerExtension(path) == ".obj";
-    TriangleMesh mesh = triangulate(isObj ? parseObj(readFile(path), path, warn, coordinates) : readCage(path, warn));
+    return triangulate(isObj ? parseObj(readFile(path), path, warn, coordinates) : readCage(path, warn));
+}
+
+bool hasArea(const TriangleMesh& mesh) {
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const auto at = [&](std::size_t k) { return dvec3(mesh.positions[mesh.indices[i + k]]); };
+        if (glm::cross(at(1) - at(0), at(2) - at(0)) != dvec3(0)) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates, const Warn& warn) {
+    TriangleMesh mesh = readAnyTriangles(path, coordinates, warn);
     if (mesh.indices.empty()) fail(Failure::input, "{}: there are no triangles", path);
+    if (!hasArea(mesh)) fail(Failure::input, "{}: none of its {} triangles has an area", path, mesh.indices.size() / 3);
     if (mesh.coordinates != coordinates)
         for (vec3& p : mesh.positions) p = vec3(coordinates.toLocal(mesh.coordinates.toWorld(dvec3(p))));
     mesh.coordinates = coordinates;
@@ -122,15 +173,21 @@ TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates,
 
 SculptFaults windAlike(TriangleMesh& mesh) {
     SculptFaults faults;
-    std::vector<Link> links = findLinks(sortedSides(mesh), faults);
-    if (std::ranges::none_of(links, &Link::runsAlike)) return faults;
+    // Links take twice the memory of a mesh: most need none.
+    std::vector<Link> links;
+    {
+        const Sides sides = sortSides(mesh);
+        if (countEdges(sides, faults) == 0) return faults;
+        links = findLinks(sides);
+    }
     const std::vector<bool> isTurned = chooseTurned(mesh.indices.size() / 3, std::move(links), faults);
     for (std::size_t i = 0; i < isTurned.size(); ++i)
         if (isTurned[i]) ++faults.turnedCount, std::swap(mesh.indices[3 * i + 1], mesh.indices[3 * i + 2]);
     return faults;
 }
 
-SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const LineReach& reach) {
+SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const LineSearch& lines) {
+    const SculptLines along(surface, sculpt, lines);
     constexpr int kPoints = 4096;
     const int perSide = std::clamp(int(std::ceil(std::sqrt(double(kPoints) / surface.faceCount()))), 1, 16);
     const int step = std::max(1, surface.faceCount() / kPoints);
@@ -140,11 +197,11 @@ SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sc
         for (int i = 0; i < perSide * perSide; ++i) {
             dvec2 uv = (dvec2(i % perSide, i / perSide) + 0.5) / double(perSide);
             if (surface.sideCount() == 3 && uv.x + uv.y > 1) continue;
-            const dvec3 p = surface.limit(face, uv).p, n = surface.normal(face, uv);
+            const SculptLines::Line line = along.lineAt(face, uv);
             ++sides.lineCount;
-            const std::optional<LineHit> any = sculpt.nearestOnLine(p, n, reach, Facing::any);
+            const std::optional<LineHit> any = along.find(line, Facing::any);
             if (!any) continue;
-            const std::optional<LineHit> front = sculpt.nearestOnLine(p, n, reach, Facing::front);
+            const std::optional<LineHit> front = along.find(line, Facing::front);
             ++(front && front->height == any->height ? sides.frontCount : sides.backCount);
         }
     }

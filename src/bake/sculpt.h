@@ -1,6 +1,7 @@
 // Sculpts: the dense surfaces that maps are made from.
 #pragma once
 
+#include "bake/lines.h"
 #include "base/base.h"
 #include "distance/distance.h"
 #include "mesh/mesh.h"
@@ -9,7 +10,7 @@
 namespace relief {
 
 /// Reads the triangles of a .ply, .stl, .obj, .gltf or .glb, in `coordinates`. Polygons become fans.
-/// Throws as readTriangles and readCage do.
+/// Throws as readTriangles and readCage do, and Failure::input where no triangle has an area.
 TriangleMesh readSculpt(const std::string& path, const Coordinates& coordinates, const Warn& warn = warnOnStderr);
 
 /// What is odd about the triangles of a sculpt. Vertices at equal positions count as one.
@@ -24,8 +25,7 @@ struct SculptFaults {
 /// the fewer ones are turned. Edges of more than two triangles connect nothing.
 SculptFaults windAlike(TriangleMesh& mesh);
 
-/// How the sculpt looks from the surface: the sides of its triangles that the nearest hits of lines along the normals
-/// see.
+/// How the sculpt looks from the surface: the sides of its triangles that the hits of lines along the normals see.
 struct SculptSides {
     std::uint64_t lineCount = 0, frontCount = 0, backCount = 0;
 
@@ -33,7 +33,7 @@ struct SculptSides {
     [[nodiscard]] Facing facing() const { return backCount > frontCount ? Facing::back : Facing::front; }
 };
 
-/// Looks at the sculpt along both directions of the normals at some thousand points of the surface.
-SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const LineReach& reach);
+/// Looks at the sculpt along the lines of some thousand points of the surface.
+SculptSides findSides(const ReferenceSurface& surface, const MeasuredSurface& sculpt, const LineSearch& lines);
 
 } // namespace relief

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "displacement/neighbours.h"
+
 namespace relief {
 namespace {
 
@@ -259,6 +261,19 @@ void UvTexels::listSamples(int first, int count, std::vector<TexelSample>& sampl
         std::pair(claims.overlap.faces[0], claims.overlap.faces[1]) < std::pair(overlap_.faces[0], overlap_.faces[1]))
         std::ranges::copy(claims.overlap.faces, overlap_.faces);
     overlap_.sampleCount += claims.overlap.sampleCount;
+}
+
+TexelNeighbours UvTexels::neighboursOf(std::uint32_t texel) const {
+    const int x = int(texel % std::uint32_t(options_.width)), y = int(texel / std::uint32_t(options_.width));
+    const auto at = [&](int column, int row) {
+        return std::uint32_t(std::size_t(row) * std::size_t(options_.width) + std::size_t(column));
+    };
+    TexelNeighbours neighbours;
+    for (const std::uint32_t other :
+         {at(beside(x, -1, options_.width, options_.wrap), y), at(beside(x, 1, options_.width, options_.wrap), y),
+          at(x, beside(y, -1, options_.height, options_.wrap)), at(x, beside(y, 1, options_.height, options_.wrap))})
+        if (other != texel) neighbours.add(other);
+    return neighbours;
 }
 
 IslandOverlap UvTexels::overlap() const {

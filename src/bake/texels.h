@@ -1,6 +1,7 @@
 // Where the samples of a map's texels lie on a surface.
 #pragma once
 
+#include <array>
 #include <mutex>
 #include <optional>
 
@@ -18,6 +19,14 @@ struct TexelSample {
     bool isInside = true; ///< false beyond the borders of islands, in the margin that bilinear lookups need
 };
 
+/// Texels beside a texel.
+struct TexelNeighbours {
+    std::uint32_t count = 0;
+    std::array<std::uint32_t, 4> texels{};
+
+    void add(std::uint32_t texel) { texels[count++] = texel; }
+};
+
 /// The texels of a map. Several threads list samples of different rows at a time.
 class TexelSource {
 public:
@@ -26,7 +35,15 @@ public:
     [[nodiscard]] virtual int height() const = 0;
     /// Appends the samples of rows first..first+count-1: the same ones, in the same order, in every run.
     virtual void listSamples(int first, int count, std::vector<TexelSample>& samples) const = 0;
+    /// The texels around one, four at most, in the same order in every run.
+    [[nodiscard]] virtual TexelNeighbours neighboursOf(std::uint32_t texel) const = 0;
+    /// True where texels that are neighbours in rows and columns are neighbours on the surface, but for islands.
+    [[nodiscard]] virtual bool isPicture() const { return true; }
 };
+
+/// The unit squares of texture coordinates that faces lie in, row after row from the lowest (s,t) on: MapTile::place of
+/// the tiles of a set.
+std::vector<ivec2> findTilesOfFaces(const ReferenceSurface& reference);
 
 /// Islands of texture coordinates that lie over each other.
 struct IslandOverlap {
@@ -55,6 +72,7 @@ public:
     [[nodiscard]] int width() const override { return options_.width; }
     [[nodiscard]] int height() const override { return options_.height; }
     void listSamples(int first, int count, std::vector<TexelSample>& samples) const override;
+    [[nodiscard]] TexelNeighbours neighboursOf(std::uint32_t texel) const override;
     /// Of all samples listed so far.
     [[nodiscard]] IslandOverlap overlap() const;
     /// Faces whose texture coordinates have no area, so that no texel shows them.

@@ -23,22 +23,32 @@ struct FillLevel {
     }
 };
 
-FillLevel coarser(const FillLevel& fine) {
-    FillLevel coarse{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
+/// The level above one of that size, of which `meanAt` and `shareAt` say what is known.
+template <typename MeanAt, typename ShareAt>
+FillLevel coarser(int width, int height, const MeanAt& meanAt, const ShareAt& shareAt) {
+    FillLevel coarse{(width + 1) / 2, (height + 1) / 2, {}, {}};
+    coarse.means.reserve(std::size_t(coarse.width) * std::size_t(coarse.height));
+    coarse.shares.reserve(coarse.means.capacity());
     for (int y = 0; y < coarse.height; ++y)
         for (int x = 0; x < coarse.width; ++x) {
             double sum = 0, share = 0;
             for (int k = 0; k < 4; ++k) {
                 const int column = 2 * x + k % 2, row = 2 * y + k / 2;
-                if (column >= fine.width || row >= fine.height) continue;
-                const std::size_t i = fine.at(column, row);
-                sum += double(fine.shares[i]) * double(fine.means[i]);
-                share += double(fine.shares[i]);
+                if (column >= width || row >= height) continue;
+                const std::size_t i = std::size_t(row) * std::size_t(width) + std::size_t(column);
+                sum += double(shareAt(i)) * double(meanAt(i));
+                share += double(shareAt(i));
             }
             coarse.means.push_back(share > 0 ? float(sum / share) : 0);
             coarse.shares.push_back(float(std::min(share, 1.0)));
         }
     return coarse;
+}
+
+FillLevel coarser(const FillLevel& fine) {
+    return coarser(
+        fine.width, fine.height, [&](std::size_t i) { return fine.means[i]; },
+        [&](std::size_t i) { return fine.shares[i]; });
 }
 
 /// Bilinear at the centre of texel (x,y) of the level before, whose four texels lie a quarter beside the centre.
@@ -65,16 +75,20 @@ void pull(FillLevel& fine, const FillLevel& coarse) {
 void fillVoids(int width, int height, std::span<float> texels, const std::vector<bool>& isVoid) {
     RELIEF_CHECK(texels.size() == std::size_t(width) * std::size_t(height));
     RELIEF_CHECK(isVoid.size() == texels.size());
-    // Push: the finest level is the map itself, with voids that cover nothing.
-    std::vector<FillLevel> levels{
-        {width, height, {texels.begin(), texels.end()}, std::vector<float>(texels.size(), 1)}};
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        if (isVoid[i]) levels[0].means[i] = levels[0].shares[i] = 0;
+    if (texels.size() <= 1) return;
+    // Push: the finest level is the map itself, whose voids cover nothing; it is not copied.
+    std::vector<FillLevel> levels;
+    levels.push_back(coarser(
+        width, height, [&](std::size_t i) { return isVoid[i] ? 0.0f : texels[i]; },
+        [&](std::size_t i) { return isVoid[i] ? 0.0f : 1.0f; }));
     while (levels.back().means.size() > 1) levels.push_back(coarser(levels.back()));
     // Pull: from the coarsest level, which is one mean of all heights.
     for (std::size_t level = levels.size() - 1; level-- > 0;) pull(levels[level], levels[level + 1]);
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        if (isVoid[i]) texels[i] = levels[0].means[i];
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+            if (isVoid[i]) texels[i] = meanAround(levels.front(), x, y);
+        }
 }
 
 HeightCensus::HeightCensus(const ImageInfo& info) : takesCustomary_(info.hasUnit()) {

@@ -106,13 +106,12 @@ dvec3 nearestInTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dv
     return sum > 0 ? a + vb / sum * ab + vc / sum * ac : a;
 }
 
-ClosestPoints::ClosestPoints(const TriangleView& triangles, TreeUse use) {
+ClosestPoints::ClosestPoints(std::vector<vec3> positions, std::vector<std::uint32_t> indices, TreeUse use)
+    : positions_(std::move(positions)), indices_(std::move(indices)) {
     // Embree reads 16 bytes per vertex: one more vertex lies behind the last.
-    checkTriangles(triangles);
-    positions_.reserve(triangles.positions.size() + 1);
-    positions_.assign(triangles.positions.begin(), triangles.positions.end());
+    checkTriangles({positions_, indices_});
+    positions_.reserve(positions_.size() + 1);
     positions_.emplace_back(0.0f);
-    indices_.assign(triangles.indices.begin(), triangles.indices.end());
     if (!device_)
         fail(Failure::device, "Embree does not start (error {}); is there memory for it?",
              int(rtcGetDeviceError(nullptr)));

@@ -13,7 +13,7 @@ dvec3 nearestInTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const dv
 /// Keeps the triangles it was made of. Queries may run on several threads.
 class ClosestPoints {
 public:
-    ClosestPoints(const TriangleView& triangles, TreeUse use);
+    ClosestPoints(std::vector<vec3> positions, std::vector<std::uint32_t> indices, TreeUse use);
     ClosestPoints(const ClosestPoints&) = delete;
     ClosestPoints& operator=(const ClosestPoints&) = delete;
 

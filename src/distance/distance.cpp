@@ -170,14 +170,21 @@ struct MeasuredSurface::Parts {
     Samples samples;
     double area = 0;
 
-    Parts(const TriangleView& triangles, std::size_t sampleCount, TreeUse use)
-        : points(triangles, use), samples(Sampler(points, sampleCount).sample()) {
+    Parts(std::vector<vec3> positions, std::vector<std::uint32_t> indices, std::size_t sampleCount, TreeUse use)
+        : points(std::move(positions), std::move(indices), use), samples(Sampler(points, sampleCount).sample()) {
         for (const double weight : samples.weights) area += weight;
     }
 };
 
 MeasuredSurface::MeasuredSurface(const TriangleView& triangles, std::size_t sampleCount, TreeUse use)
-    : parts_(std::make_unique<Parts>(triangles, sampleCount, use)) {}
+    : parts_(std::make_unique<Parts>(std::vector(triangles.positions.begin(), triangles.positions.end()),
+                                     std::vector(triangles.indices.begin(), triangles.indices.end()), sampleCount,
+                                     use)) {}
+MeasuredSurface::MeasuredSurface(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+MeasuredSurface MeasuredSurface::ofMesh(TriangleMesh mesh, std::size_t sampleCount, TreeUse use) {
+    return MeasuredSurface(
+        std::make_unique<Parts>(std::move(mesh.positions), std::move(mesh.indices), sampleCount, use));
+}
 MeasuredSurface::~MeasuredSurface() = default;
 MeasuredSurface::MeasuredSurface(MeasuredSurface&&) noexcept = default;
 MeasuredSurface& MeasuredSurface::operator=(MeasuredSurface&&) noexcept = default;

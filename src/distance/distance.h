@@ -49,6 +49,8 @@ public:
     /// Throws Failure::input for indices out of range, numbers that are not finite and surfaces without area.
     explicit MeasuredSurface(const TriangleView& triangles, std::size_t sampleCount = 200'000,
                              TreeUse use = TreeUse::distances);
+    /// Prepares a surface without a copy of its triangles. Throws as the constructor does.
+    static MeasuredSurface ofMesh(TriangleMesh mesh, std::size_t sampleCount, TreeUse use);
     ~MeasuredSurface();
     MeasuredSurface(MeasuredSurface&&) noexcept;
     MeasuredSurface& operator=(MeasuredSurface&&) noexcept;
@@ -72,6 +74,7 @@ public:
 private:
     friend struct SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface& to);
     struct Parts;
+    explicit MeasuredSurface(std::unique_ptr<Parts> parts);
     std::unique_ptr<Parts> parts_;
 };
 

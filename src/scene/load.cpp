@@ -205,7 +205,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
         object.options = makeSurfaceOptions(desc, subdivision, object.cage);
         object.surface = buildNamedSurface(object, desc.cage);
         warnOfApproximateFaces(object, desc.cage, warn);
-        if (object.height) fitHeights(object, desc);
+        if (object.height) fitHeights(object, desc, warn);
     }
     object.loadSeconds = loadEnd - start;
     object.surfaceSeconds = secondsNow() - loadEnd;

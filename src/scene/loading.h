@@ -14,9 +14,10 @@ void placeTexCoords(Cage& cage, const ObjectDesc& desc);
 /// face, and Failure::input for a set and a cage without texture coordinates.
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn);
 
-/// Fits a map per face to the surface of its cage and stores it as its encoding says. Does nothing with other maps.
-/// Throws Failure::input for a map that was made for another cage.
-void fitHeights(LoadedObject& object, const ObjectDesc& desc);
+/// Fits a map per face to the surface of its cage and stores it as its encoding says. Warns of other maps that say in
+/// their header that they were baked over another cage, or for another mid or scale.
+/// Throws Failure::input for a map per face that was made for another cage.
+void fitHeights(LoadedObject& object, const ObjectDesc& desc, const Warn& warn);
 
 /// Reads and compiles the height function of an object. Its bounds are not known yet.
 FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage);

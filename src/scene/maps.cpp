@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "displacement/map_origin.h"
 #include "scene/loading.h"
 
 namespace relief {
@@ -177,12 +178,27 @@ void warnOfMissingTiles(const Cage& cage, const HeightMap& set, const std::strin
                      names));
 }
 
+/// A map that relief has baked says for which cage, mid and scale.
+void warnOfOtherOrigin(const ObjectDesc& desc, std::uint64_t topology, const Warn& warn) {
+    const HeightDesc& height = desc.height;
+    const std::string file = findTilePattern(height.path) ? listTiles(height.path).front().path : height.path;
+    if (lowerExtension(file) != ".exr" || height.vectors) return;
+    const std::optional<MapOrigin> origin = readMapOrigin(readImageInfo(file));
+    if (!origin) return;
+    if (origin->topology != topology)
+        warn(fmt::format("{}: this map was baked over another cage than {}, or with another --weld", file, desc.cage));
+    const double mid = height.mid.value_or(0), scale = height.scale.value_or(1);
+    if (mid != origin->mid || scale != origin->scale)
+        warn(fmt::format("{}: this map was baked for --mid {} --scale {}; it is read with --mid {} --scale {}", file,
+                         origin->mid, origin->scale, mid, scale));
+}
+
 } // namespace
 
-void fitHeights(LoadedObject& object, const ObjectDesc& desc) {
+void fitHeights(LoadedObject& object, const ObjectDesc& desc, const Warn& warn) {
     HeightMap& map = *object.height;
-    if (map.addressing != Addressing::faces) return;
     const std::uint64_t topology = hashTopology(object.cage);
+    if (map.addressing != Addressing::faces) return warnOfOtherOrigin(desc, topology, warn);
     if (map.topology != topology)
         fail(Failure::input,
              "{}: this map per face was made for another cage than {} ({:016x}, not {:016x}), or with another --weld",

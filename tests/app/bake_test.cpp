@@ -1,4 +1,5 @@
 // relief bake: sculpts of all kinds of files, maps that are checked again, and what is refused.
+#include "bake/bake.h"
 #include "meshes.h"
 #include "program.h"
 
@@ -85,6 +86,80 @@ TEST_F(Bake, comesBackWithinHalfAStepOfATexel) {
     EXPECT_TRUE(std::filesystem::exists(map));
 }
 
+TEST_F(Bake, needsNoTextureCoordinatesPerFace) {
+    exportSculpt(16);
+    std::string bare;
+    std::istringstream lines(readFile(cage));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("vt ")) continue;
+        for (std::size_t at = line.find('/'); line.starts_with("f ") && at != std::string::npos; at = line.find('/'))
+            line.erase(at, std::min(line.find(' ', at), line.size()) - at);
+        bare += line + "\n";
+    }
+    putFile(folder / "bare.obj", bare);
+    const nlohmann::json report =
+        jsonOf(bake({folder / "bare.obj", sculpt, "-o", map, "--per-face", "--json"}, "--size 128,128"));
+    EXPECT_EQ(report["kind"], "faces");
+    EXPECT_EQ(report["tiles"], 128);
+    EXPECT_EQ(report["voids"], 0);
+    EXPECT_LT(report["surface_to_sculpt"]["rms_percent"], 0.05);
+    EXPECT_LT(report["sculpt_to_surface"]["rms_percent"], 0.05);
+    const nlohmann::json again =
+        jsonOf(bake({folder / "bare.obj", sculpt, "--check", "--height", map, "--smooth-cage", "--json"}, ""));
+    EXPECT_NEAR(again["rms"], double(report["rms"]), 1e-8);
+    // The surface stays closed, and the map says which cage it is for.
+    expectDone(relief({"export", folder / "bare.obj", "--height", map, "-o", folder / "closed.ply", "-q"}, "--rate 8"));
+    TriangleMesh mesh = readTriangles(folder / "closed.ply");
+    EXPECT_EQ(windAlike(mesh).boundaryCount, 0u);
+    expectRefused(relief({"render", cagePath("cube"), "--height", map, "-o", folder / "p.png"}), Failure::input,
+                  {"another cage"});
+}
+
+TEST_F(Bake, writesTheTilesThatFacesLieIn) {
+    exportSculpt(16);
+    std::string wide;
+    std::istringstream lines(readFile(cage));
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("vt ")) {
+            std::istringstream numbers(line.substr(3));
+            dvec2 st;
+            numbers >> st.x >> st.y;
+            line = fmt::format("vt {} {}", 2 * st.x, st.y);
+        }
+        wide += line + "\n";
+    }
+    putFile(folder / "wide.obj", wide);
+    const std::string set = folder / "m.<UDIM>.exr", first = folder / "m.1001.exr";
+    const nlohmann::json report = jsonOf(
+        bake({folder / "wide.obj", sculpt, "-o", set, "--voids", folder / "v.<UDIM>.png", "--json"}, "--size 64,128"));
+    EXPECT_EQ(report["tiles"], 2);
+    EXPECT_EQ(report["texels"], kSide * kSide);
+    EXPECT_LT(report["surface_to_sculpt"]["rms_percent"], 0.05);
+    for (const char* name : {"m.1001.exr", "m.1002.exr", "v.1001.png", "v.1002.png"})
+        EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+    EXPECT_FALSE(std::filesystem::exists(folder / "m.1003.exr"));
+
+    // A map that is read in another way than it was baked for is drawn, with a word about it.
+    const auto warningsOf = [&](const Words& words) {
+        Words all{"export"};
+        all.insert(all.end(), words.begin(), words.end());
+        const Outcome outcome = relief(all, "--rate 1 -o " + (folder / "x.ply"));
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_FALSE(contains(warningsOf({folder / "wide.obj", "--height", set}), "was baked"));
+    EXPECT_TRUE(contains(warningsOf({cagePath("plane"), "--height", first}), "was baked over another cage"));
+    EXPECT_TRUE(contains(warningsOf({cage, "--height", first, "--scale", "2"}),
+                         "for --mid 0 --scale 1; it is read with --mid 0 --scale 2"));
+
+    // A full disk leaves all tiles as they were.
+    const std::string before = readFile(first);
+    const Outcome full = shell(
+        "ulimit -f 8; exec \"$RELIEF\" bake $IN/wide.obj $IN/sculpt.ply -o '" + set + "' -q --size 128,128", folder);
+    expectRefused(full, Failure::file, {"m.1001.exr", "cannot be written"});
+    EXPECT_EQ(readFile(first), before);
+}
+
 TEST_F(Bake, refusesWhatCannotBeBaked) {
     exportSculpt(4);
     const std::string bytes = readFile(sculpt);
@@ -98,12 +173,35 @@ TEST_F(Bake, refusesWhatCannotBeBaked) {
     };
     expect({cage, folder / "cut.ply", "-o", map}, Failure::input, {"cut.ply", "bytes are left"});
     expect({cage, folder / "far.obj", "-o", map}, Failure::input, {"far.obj", "none of", "the cage's box is"});
-    expect({folder / "bare.obj", sculpt, "-o", map}, Failure::input, {"bare.obj", "no texture coordinates to bake"});
+    expect({folder / "bare.obj", sculpt, "-o", map}, Failure::input,
+           {"bare.obj", "no texture coordinates to bake", "--per-face"});
     expect({cage, sculpt}, Failure::usage, {"-o"});
     expect({cage, sculpt, "--check"}, Failure::usage, {"--height"});
     expect({cage, sculpt, "-o", folder / "h.png", "--format", "half"}, Failure::usage, {"h.png", ".png holds no half"});
     expect({cage, sculpt, "-o", map, "--position", folder / "p.png"}, Failure::usage, {"p.png", "as .exr or .tif"});
     expect({cage, sculpt, "-o", map, "--max-distance", "-1"}, Failure::usage, {"--max-distance"});
+    const Words perFace{cage, sculpt, "-o", map, "--per-face"};
+    const auto expectPerFace = [&](const Words& more, const Words& parts) {
+        Words words = perFace;
+        words.insert(words.end(), more.begin(), more.end());
+        expect(words, Failure::usage, parts);
+    };
+    expectPerFace({"--face-size", "3"}, {"--face-size 3", "1, 2, 4"});
+    expectPerFace({"--voids", folder / "v.png"}, {"v.png", "heights alone"});
+    expectPerFace({"--format", "half"}, {"one .exr of floats"});
+    putFile(folder / "tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    expect({folder / "tri.obj", sculpt, "-o", map, "--per-face", "--scheme", "loop"}, Failure::usage,
+           {"faces need four sides"});
+    expect({cage, sculpt, "-o", map, "--face-size", "4"}, Failure::usage, {"--face-size is for maps with --per-face"});
+    expect({cage, sculpt, "-o", map, "--voids", folder / "v.<UDIM>.png"}, Failure::usage, {"v.<UDIM>.png", "none is"});
+    expect({cage, sculpt, "-o", map, "--cage", cagePath("cube")}, Failure::input, {"cube.obj", "are not those of"});
+    putFile(folder / "point.obj", "v 0 0 0\nv 0 0 0\nv 0 0 0\nf 1 2 3\n");
+    expect({cage, folder / "point.obj", "-o", map}, Failure::input, {"point.obj", "has an area"});
+    const Outcome fullPerFace = shell("ulimit -f 8; exec \"$RELIEF\" bake " + cage +
+                                          " $IN/sculpt.ply -o $IN/map.exr -q --per-face --size 256,256",
+                                      folder);
+    expectRefused(fullPerFace, Failure::file, {"map.exr", "cannot be written"});
+    EXPECT_EQ(readFile(map), "an old map");
     const Outcome full = shell("ulimit -f 8; exec \"$RELIEF\" bake " + cage +
                                    " $IN/sculpt.ply -o $IN/map.exr -q "
                                    "--size 256,256",

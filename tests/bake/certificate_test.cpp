@@ -15,7 +15,7 @@ TEST(BakeCertificate, measuresBothWays) {
     const MeasuredSurface sculpt = measured(flatSculpt(0.25));
     const HeightMap exact = makeHeightMap(1, 1, {0.25f}, 0, 1, Wrap::clamp);
     const HeightMap off = makeHeightMap(1, 1, {0.2f}, 0, 1, Wrap::clamp);
-    const BakeCertificateOptions options{.reach = {1, 1}, .triangleCount = 20'000, .wantsDistances = true};
+    const BakeCertificateOptions options{.lines = {.reach = {1, 1}}, .triangleCount = 20'000, .wantsDistances = true};
     const BakeCertificate good = certifyBake(baking.reference, exact, sculpt, options);
     EXPECT_LT(good.distance.hausdorff(), 1e-6);
     EXPECT_EQ(good.missedShare, 0);
@@ -29,8 +29,9 @@ TEST(BakeCertificate, findsMissesOnHalfOfTheSurface) {
     const Baking baking(squareGrid());
     TriangleMesh half = flatSculpt(0.25);
     for (vec3& p : half.positions) p.x = p.x / 2 - 0.01f;
-    const BakeCertificate certificate = certifyBake(baking.reference, makeHeightMap(1, 1, {0.25f}, 0, 1, Wrap::clamp),
-                                                    measured(half), {.reach = {1, 1}, .triangleCount = 20'000});
+    const BakeCertificate certificate =
+        certifyBake(baking.reference, makeHeightMap(1, 1, {0.25f}, 0, 1, Wrap::clamp), measured(half),
+                    {.lines = {.reach = {1, 1}}, .triangleCount = 20'000});
     EXPECT_NEAR(certificate.missedShare, 0.5, 0.01);
     EXPECT_NEAR(certificate.distance.forth.rms, std::sqrt(2.0 / 3), 0.01);
     EXPECT_LT(certificate.distance.back.rms, 0.01);
@@ -41,7 +42,7 @@ TEST(BakeCertificate, findsFoldsByCurvatureAndByOrientation) {
     const Cage cage = torusWithSeams(16, 12);
     const Baking baking(cage);
     const MeasuredSurface sculpt = measured(flatSculpt(0));
-    const BakeCertificateOptions options{.reach = {1, 1}, .triangleCount = 20'000};
+    const BakeCertificateOptions options{.lines = {.reach = {1, 1}}, .triangleCount = 20'000};
     for (const auto& [height, share] : {std::pair(-0.9f, 1.0), std::pair(-0.4f, 0.0), std::pair(0.4f, 0.0)}) {
         const HeightMap map = makeHeightMap(1, 1, {height}, 0, 1, Wrap::repeat);
         const BakeCertificate certificate = certifyBake(baking.reference, map, sculpt, options);
@@ -56,10 +57,10 @@ TEST(Sculpts, ofAnyWindingGiveTheSameMap) {
     const Baking baking(squareGrid(), {.width = 16, .height = 16, .wrap = Wrap::clamp});
     TriangleMesh mesh = flatSculpt(0.25);
     const LineReach reach{1, 1};
-    EXPECT_EQ(findSides(baking.reference, measured(mesh), reach).facing(), Facing::front);
+    EXPECT_EQ(findSides(baking.reference, measured(mesh), {.reach = reach}).facing(), Facing::front);
     const BakedHeights expected = baking.bake(measured(mesh), reach);
     turnOver(mesh);
-    const SculptSides sides = findSides(baking.reference, measured(mesh), reach);
+    const SculptSides sides = findSides(baking.reference, measured(mesh), {.reach = reach});
     EXPECT_EQ(sides.facing(), Facing::back);
     EXPECT_EQ(sides.frontCount, 0u);
     EXPECT_EQ(baking.bake(measured(mesh), reach, sides.facing()).heights, expected.heights);

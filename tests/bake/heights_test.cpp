@@ -99,7 +99,7 @@ TEST(BakedHeights, areOfTheNearestSheetThatFacesOutwards) {
     EXPECT_EQ(baked.behindCount, std::uint64_t(kSide * kSide / 2));
     const Baking strict(squareGrid(), kFlat);
     const BakedHeights dropped = bakeHeights(strict.reference, measured(sheets), strict.texels,
-                                             {.reach = {1, 1}, .wrap = Wrap::clamp, .dropsBehind = true});
+                                             {.lines = {.reach = {1, 1}}, .dropsBehind = true});
     EXPECT_EQ(dropped.voidCount, std::uint64_t(kSide * kSide / 2));
     // Nearer on the other side.
     append(sheets, flat(-0.15));

@@ -15,7 +15,7 @@ std::vector<Image> bakeLayers(const Baking& baking, const TriangleMesh& mesh, st
     const LayerOptions options{
         .layers = std::move(layers), .detail = &detail, .occlusionLines = 256, .occlusionReach = 9};
     return bakeHeights(baking.reference, sculpt, baking.texels,
-                       {.reach = {1, 1}, .facing = facing, .wrap = Wrap::clamp, .layers = options})
+                       {.lines = {.reach = {1, 1}, .facing = facing}, .layers = options})
         .layers;
 }
 

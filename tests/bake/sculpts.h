@@ -59,7 +59,7 @@ struct Baking {
 
     [[nodiscard]] BakedHeights bake(const MeasuredSurface& sculpt, const LineReach& reach,
                                     Facing facing = Facing::front) const {
-        return bakeHeights(reference, sculpt, texels, {.reach = reach, .facing = facing, .wrap = wrap});
+        return bakeHeights(reference, sculpt, texels, {.lines = {.reach = reach, .facing = facing}});
     }
     [[nodiscard]] HeightMap mapOf(const BakedHeights& baked) const {
         return makeHeightMap(baked.width, baked.height, baked.heights, 0, 1, wrap);
