@@ -4,8 +4,8 @@
 #include <set>
 
 #include "base/clock.h"
-#include "gpu/shader_cache.h"
 #include "formula/sources.h"
+#include "gpu/shader_cache.h"
 
 namespace relief {
 namespace {
