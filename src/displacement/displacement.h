@@ -4,5 +4,6 @@
 
 #include "displacement/displaced_frame.h"
 #include "displacement/height_map.h"
+#include "displacement/layers.h"
 #include "displacement/normal_map.h"
 #include "displacement/vector_map.h"

@@ -1,7 +1,8 @@
-// For other modules: several maps of one surface, added.
+// Several maps of one surface, added.
 #pragma once
 
-#include "displacement/displacement.h"
+#include "displacement/height_map.h"
+#include "displacement/vector_map.h"
 
 namespace relief {
 

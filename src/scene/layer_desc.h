@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "displacement/layers.h"
+#include "displacement/displacement.h"
 
 namespace relief {
 
