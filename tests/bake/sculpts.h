@@ -36,6 +36,19 @@ TriangleMesh hillsOverGrid(std::uint32_t n, const Height& height) {
     return sheetThrough(n, [&](double s, double t) { return dvec3(4 * s, height(4 * s, 4 * t), -4 * t); });
 }
 
+/// The triangles of a sheet whose middles lie outside of low < (x,-z) < high.
+inline TriangleMesh withHole(TriangleMesh sheet, const dvec2& low, const dvec2& high) {
+    std::vector<std::uint32_t> kept;
+    for (std::size_t i = 0; i < sheet.indices.size(); i += 3) {
+        dvec3 middle(0);
+        for (std::size_t k = 0; k < 3; ++k) middle += dvec3(sheet.positions[sheet.indices[i + k]]) / 3.0;
+        const bool isInHole = middle.x > low.x && middle.x < high.x && -middle.z > low.y && -middle.z < high.y;
+        if (!isInHole) kept.insert(kept.end(), &sheet.indices[i], &sheet.indices[i] + 3);
+    }
+    sheet.indices = std::move(kept);
+    return sheet;
+}
+
 inline void append(TriangleMesh& mesh, const TriangleMesh& more) {
     const auto first = std::uint32_t(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
