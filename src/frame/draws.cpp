@@ -48,16 +48,19 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
     drawn.draws = uploadArray<VkDrawIndirectCommand>(device, "draws", calls, VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT);
 }
 
-void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats) {
+DiceOptions Renderer::Parts::diceOptionsOf(const Frame& frame, const Drawn& drawn) const {
     const bool hasLayers = !frame.options.layers.empty();
     const DrawPass mostWanted = hasLayers ? DrawPass::layers : DrawPass::surface;
     const ShaderConstants constants = constantsOf(frame, drawn, mostWanted);
-    drawn.diced = dicer.dice(*drawn.surface, drawn.rates,
-                             {.normal = frame.options.normal,
-                              .wantsTexCoords = constants.wantsTexCoords && constants.hasTexCoords,
-                              .wantsTexGradients = constants.hasTexGradients,
-                              .wantsFaces = hasLayers,
-                              .memory = frame.options.memory});
+    return {.normal = frame.options.normal,
+            .wantsTexCoords = constants.wantsTexCoords && constants.hasTexCoords,
+            .wantsTexGradients = constants.hasTexGradients,
+            .wantsFaces = hasLayers,
+            .memory = frame.options.memory};
+}
+
+void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats) {
+    drawn.diced = dicer.dice(*drawn.surface, drawn.rates, diceOptionsOf(frame, drawn));
     const DicedMesh& mesh = drawn.diced;
     drawn.bindings[kBindMesh] = mesh.vertices.binding();
     drawn.bindings[kBindMeshIndices] = mesh.indices.binding();
@@ -107,7 +110,7 @@ std::span<const DrawBatch> batchesOf(const DrawPlan& plan, DrawPass pass) {
 void Renderer::Parts::draw(Rendering& rendering, const Frame& frame, DrawPass pass) {
     const VkCommandBuffer commands = rendering.commands();
     for (const Drawn& drawn : frame.drawn) {
-        const Pipeline& pipeline = pipelineOf(frame, drawn, pass);
+        const Pipeline& pipeline = drawPipeline(frame, drawn, pass).get();
         bind(commands, pipeline, drawn.set);
         if (drawn.mesh != nullptr) {
             pushConstants(commands, pipeline, MeshPush{});

@@ -28,7 +28,7 @@ void Renderer::Parts::layerPass(VkCommandBuffer commands, const Frame& frame) {
     rendering.end();
 }
 
-const Pipeline& Renderer::Parts::layerPipeline(const Frame& frame, const Drawn& drawn) {
+const PendingPipeline& Renderer::Parts::layerPipeline(const Frame& frame, const Drawn& drawn) {
     ShaderConstants constants = constantsOf(frame, drawn, DrawPass::layers);
     constants.wantsTexCoords = false;
     constants.hasMotion = drawn.surface != nullptr && drawn.surface->hasMotion();
@@ -38,7 +38,7 @@ const Pipeline& Renderer::Parts::layerPipeline(const Frame& frame, const Drawn& 
 /// Each instance writes the pixels that see it, the first one also those that see nothing.
 void Renderer::Parts::layerValuesPass(VkCommandBuffer commands, const Frame& frame) {
     for (const Drawn& drawn : frame.drawn) {
-        bind(commands, layerPipeline(frame, drawn), drawn.set);
+        bind(commands, layerPipeline(frame, drawn).get(), drawn.set);
         vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
     }
     barrier(commands);

@@ -17,8 +17,11 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     ShaderConstants c =
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
     c.pass = row.constant;
-    c.hasMips = drawn.rates.hasMips();
-    c.readsNodes = drawn.surface != nullptr && readsNodes(*drawn.surface, drawn.rates);
+    // Vertices of a diced mesh have their heights already; motion is evaluated again.
+    if (drawn.surface != nullptr && (frame.path != Path::dice || pass == DrawPass::layers)) {
+        c.hasMips = drawn.rates.hasMips();
+        c.readsNodes = readsNodes(*drawn.surface, drawn.rates);
+    }
     c.hasInstances = row.marksInstances && frame.hasInstances();
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
     const ModelPictures& pictures = drawn.pictures();
@@ -63,7 +66,7 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
     return stages;
 }
 
-const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, const Drawn& drawn, DrawPass pass) {
+const PendingPipeline& Renderer::Parts::drawPipeline(const Frame& frame, const Drawn& drawn, DrawPass pass) {
     // Everything in which two pipelines may differ is part of the key.
     const std::vector<std::uint32_t> constants = constantsOf(frame, drawn, pass).values();
     std::vector<std::uint32_t> key = constants;
@@ -88,26 +91,30 @@ const Pipeline& Renderer::Parts::pipelineOf(const Frame& frame, const Drawn& dra
     graphics.additiveBlend = row.isAdditive;
     graphics.polygonMode = row.drawsLines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
     graphics.depthBias = row.drawsLines;
-    return pipelines[key] = makeGraphics(device, graphics);
+    PendingPipeline& made = pipelines[key] = startGraphics(device, std::move(graphics));
+    if (drawn.function() != nullptr) made.get(); // its code lives as long as the function
+    return made;
 }
 
-const Pipeline& Renderer::Parts::computePipeline(const char* file, const SurfaceModel* surface,
-                                                 const ShaderConstants& constants) {
+const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const SurfaceModel* surface,
+                                                        const ShaderConstants& constants) {
     const std::vector<std::uint32_t> values = constants.values();
     std::vector<std::uint32_t> key = values;
     key.push_back(surface != nullptr && surface->isTriangles() ? 1 : 0);
     for (const char* letter = file; *letter != 0; ++letter) key.push_back(std::uint32_t(*letter));
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
-    return pipelines[key] = makeCompute(
-               device, {.name = file,
-                        .stage = surface != nullptr ? shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, *surface)
-                                                    : shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file),
-                        .constants = values,
-                        .layout = passLayout(device)});
+    PendingPipeline& made = pipelines[key] = startCompute(
+        device, {.name = file,
+                 .stage = surface != nullptr ? shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, *surface)
+                                             : shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file),
+                 .constants = values,
+                 .layout = passLayout(device)});
+    if (surface != nullptr && surface->function) made.get(); // its code lives as long as the function
+    return made;
 }
 
-const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLight) {
+const PendingPipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLight) {
     return computePipeline("light.comp", nullptr,
                            {.show = frame.technique.constant,
                             .hasInstances = frame.hasInstances(),
@@ -119,11 +126,68 @@ const Pipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLigh
                             .hasOcclusion = frame.hasOcclusion()});
 }
 
-const Pipeline& Renderer::Parts::occlusionPipeline(const Frame& frame) {
+const PendingPipeline& Renderer::Parts::occlusionPipeline(const Frame& frame) {
     return computePipeline("occlusion.comp", nullptr,
                            {.show = frame.technique.constant,
                             .readsSampleBuffers = frame.raster == Raster::compute,
                             .hasSampleColors = frame.writesIds});
+}
+
+// --- in advance -----------------------------------------------------------------------------------------------------
+
+/// All of a picture's, in the order in which it needs them.
+void Renderer::Parts::startPipelines(const Frame& frame) {
+    const auto startPass = [&](const Drawn& drawn, DrawPass pass, Raster raster) {
+        if (raster == Raster::compute) {
+            rasterPipeline("raster_vertices.comp", frame, drawn, pass);
+            rasterPipeline("raster_triangles.comp", frame, drawn, pass);
+        } else {
+            drawPipeline(frame, drawn, pass);
+        }
+    };
+    for (const Drawn& drawn : frame.drawn)
+        if (frame.castsShadows()) startPass(drawn, DrawPass::shadow, frame.shadowRaster);
+    for (const Drawn& drawn : frame.drawn) {
+        startPass(drawn, DrawPass::surface, frame.raster);
+        if (frame.writesIds)
+            computePipeline("raster_resolve.comp", nullptr, constantsOf(frame, drawn, DrawPass::surface));
+        if (frame.technique.hasLines) drawPipeline(frame, drawn, DrawPass::lines);
+    }
+    if (frame.hasOcclusion()) occlusionPipeline(frame);
+    lightPipeline(frame);
+}
+
+namespace {
+
+/// About how many triangles a surface gets that is measured in pixels, per pixel that it covers and for segments of one
+/// pixel: on both sides, steep ones included (bigguy: 21).
+constexpr double kTrianglesPerPixel = 20;
+
+} // namespace
+
+/// Those that a picture most probably needs, before there are rates and triangles. Not of height functions: their
+/// shaders are made at once, which a wrong guess would make expensive.
+void Renderer::Parts::startGuessedPipelines(Frame& frame) {
+    const TriangleOptions& o = frame.options;
+    const auto isFunction = [](const Drawn& drawn) { return drawn.function() != nullptr; };
+    if (std::ranges::any_of(frame.drawn, isFunction)) return;
+    double triangles = 0;
+    for (const Drawn& drawn : frame.drawn) {
+        if (drawn.mesh != nullptr) {
+            triangles += drawn.mesh->triangleCount;
+            continue;
+        }
+        rater.startPipelines(*drawn.surface, o);
+        const bool hasMips = o.filtersHeights && drawn.surface->height;
+        if (frame.path == Path::dice) dicer.startPipelines(*drawn.surface, diceOptionsOf(frame, drawn), hasMips);
+        const double pixels = double(desc.width) * desc.height;
+        triangles += o.rate ? 2.0 * double(drawn.surface->faces.size()) * *o.rate * *o.rate
+                            : kTrianglesPerPixel * pixels / (o.edgePixels * o.edgePixels);
+    }
+    // What tessellation and grids need depends on rates.
+    chooseRasters(frame, std::uint64_t(std::min(triangles, 1e9)));
+    frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
+    if (frame.raster == Raster::compute) startPipelines(frame);
 }
 
 } // namespace relief

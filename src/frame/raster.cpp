@@ -67,8 +67,8 @@ std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
     return "";
 }
 
-/// The picture and its shadow map each by what suits the size of triangles in them.
-void Renderer::Parts::chooseRasters(Frame& frame) const {
+/// The picture and its shadow map each by what suits the size of that many triangles in them.
+void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) const {
     const std::string obstacle = obstacleToRaster(frame);
     const Raster asked = frame.options.raster;
     if (asked == Raster::compute && !obstacle.empty())
@@ -77,7 +77,7 @@ void Renderer::Parts::chooseRasters(Frame& frame) const {
         if (asked != Raster::automatic) return asked;
         if (!obstacle.empty() || !device.traits().rastersFasterInCompute) return Raster::hardware;
         const double pixels = coveredPixels(frame.options.bounds, toClip, size);
-        const bool areSmall = pixels < kMostPixelsPerTriangle * 0.5 * double(frame.stats.triangleCount);
+        const bool areSmall = pixels < kMostPixelsPerTriangle * 0.5 * double(triangleCount);
         return areSmall ? Raster::compute : Raster::hardware;
     };
     frame.raster = frame.stats.raster = choose(frame.inputs.view.toClip, size());
@@ -145,8 +145,8 @@ void Renderer::Parts::makeMeshBuffers(const Frame& frame) {
                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
 }
 
-const Pipeline& Renderer::Parts::rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn,
-                                                DrawPass pass) {
+const PendingPipeline& Renderer::Parts::rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn,
+                                                       DrawPass pass) {
     const DrawPassRow& row = rowOf(pass);
     // Few large triangles: on CPU drivers invocations beyond the lanes would only repeat the cuts.
     const bool isLarge = std::string_view(file) == kLargeShader;
@@ -166,7 +166,7 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
                      .depthAtInfinity = float(-camera.nearDistance / (camera.farDistance - camera.nearDistance)),
                      .firstId = drawn.firstId};
     const auto dispatch = [&](const char* file, std::uint32_t count) {
-        const Pipeline& pipeline = rasterPipeline(file, frame, drawn, pass);
+        const Pipeline& pipeline = rasterPipeline(file, frame, drawn, pass).get();
         bind(commands, pipeline, drawn.set);
         block.count = count;
         for (std::uint32_t first = 0; first < groupsOf(count); first += kGroupsAtOnce) {
@@ -184,7 +184,7 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
     dispatch("raster_vertices.comp", mesh.vertexCount);
     dispatch("raster_triangles.comp", mesh.triangleCount);
     if (!drawsLarge) return;
-    const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, pass);
+    const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, pass).get();
     bind(commands, large, drawn.set);
     pushConstants(commands, large, block);
     vkCmdDispatchIndirect(commands, buffers->large.handle.get(), 0);
@@ -222,7 +222,7 @@ void Renderer::Parts::submit(Frame& frame) {
 void Renderer::Parts::resolve(VkCommandBuffer commands, const Frame& frame) {
     for (const Drawn& drawn : frame.drawn) {
         const Pipeline& pipeline =
-            computePipeline("raster_resolve.comp", nullptr, constantsOf(frame, drawn, DrawPass::surface));
+            computePipeline("raster_resolve.comp", nullptr, constantsOf(frame, drawn, DrawPass::surface)).get();
         bind(commands, pipeline, drawn.set);
         const auto faces = std::uint32_t(drawn.diced.faceRates.size());
         pushConstants(commands, pipeline,

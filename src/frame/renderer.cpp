@@ -177,7 +177,8 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
     return drawn;
 }
 
-Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instances, const RenderOptions& options) {
+Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instances, const RenderOptions& options,
+                                                DrawPass pass) {
     Frame frame{.options = options, .technique = techniqueOf(options.show), .path = options.path};
     if (frame.technique.hasLines && !device.traits().hasWireframe)
         fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it", device.traits().name);
@@ -196,9 +197,10 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
     }
     frame.bindings[kBindInputs].uniform = inputBuffers[instances.size()].handle.get();
 
-    // The triangles of each.
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        Drawn& drawn = frame.drawn[i] = describe(frame, instances[i], i);
+    // The triangles of each. Pipelines of pictures are made while the device measures rates and dices.
+    for (std::size_t i = 0; i < instances.size(); ++i) frame.drawn[i] = describe(frame, instances[i], i);
+    if (pass == DrawPass::surface) startGuessedPipelines(frame);
+    for (Drawn& drawn : frame.drawn) {
         if (drawn.surface != nullptr) {
             makeTriangles(frame, drawn, frame.stats);
         } else {
@@ -209,10 +211,11 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
     }
 
     // What makes samples of them.
-    chooseRasters(frame);
+    chooseRasters(frame, frame.stats.triangleCount);
     useImages(frame);
     if (frame.rastersInCompute()) useBuffers(frame);
     if (frame.hasOcclusion()) useOcclusion(frame);
+    if (pass == DrawPass::surface) startPipelines(frame);
     return frame;
 }
 
@@ -222,11 +225,13 @@ void Renderer::Parts::makeSets(Frame& frame, DrawPass pass) {
     const PipelineLayoutDesc layout = passLayout(device);
     for (Drawn& drawn : frame.drawn)
         drawn.set = makeBindingSet(device,
-                                   frame.raster == Raster::compute && pass != DrawPass::layers
-                                       ? rasterPipeline("raster_triangles.comp", frame, drawn, pass)
-                                       : pipelineOf(frame, drawn, pass),
+                                   (frame.raster == Raster::compute && pass != DrawPass::layers
+                                        ? rasterPipeline("raster_triangles.comp", frame, drawn, pass)
+                                        : drawPipeline(frame, drawn, pass))
+                                       .get(),
                                    layout, drawn.bindings);
-    if (pass == DrawPass::surface) frame.set = makeBindingSet(device, lightPipeline(frame), layout, frame.bindings);
+    if (pass == DrawPass::surface)
+        frame.set = makeBindingSet(device, lightPipeline(frame).get(), layout, frame.bindings);
 }
 
 void Renderer::Parts::writeInputs(VkCommandBuffer commands, const Frame& frame) {
@@ -268,7 +273,7 @@ void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) 
 }
 
 void Renderer::Parts::lightPass(VkCommandBuffer commands, const Frame& frame, bool addsLight) {
-    bind(commands, lightPipeline(frame, addsLight), frame.set);
+    bind(commands, lightPipeline(frame, addsLight).get(), frame.set);
     vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
     barrier(commands);
 }
@@ -321,7 +326,7 @@ Picture Renderer::render(std::span<const Instance> instances, const RenderOption
     const double start = secondsNow();
     if (options.shading == Shading::matcap && options.matcap == nullptr && !instances.empty())
         parts.makeOwnMatcap(instances.front().material, options);
-    Parts::Frame frame = parts.prepare(instances, options);
+    Parts::Frame frame = parts.prepare(instances, options, DrawPass::surface);
     parts.makeSets(frame, DrawPass::surface);
     parts.submit(frame);
     Picture picture = parts.read(frame);
@@ -332,7 +337,7 @@ Picture Renderer::render(std::span<const Instance> instances, const RenderOption
 std::vector<int> Renderer::countCrossings(const Instance& instance, const RenderOptions& options, const vec3& shift) {
     // The instance alone.
     Parts& parts = *parts_;
-    Parts::Frame frame = parts.prepare(std::span(&instance, 1), options);
+    Parts::Frame frame = parts.prepare(std::span(&instance, 1), options, DrawPass::cracks);
     frame.drawn.front().inputs.view.crackShift = shift;
     return frame.raster == Raster::compute ? parts.crossingsInCompute(frame) : parts.crossingsOfDraws(frame);
 }

@@ -40,13 +40,13 @@ struct Renderer::Parts {
     PipelineCounter counter;
     EdgeRater rater;
     Dicer dicer;
-    std::map<std::vector<std::uint32_t>, Pipeline> pipelines; ///< by everything in which two of them may differ
-    std::map<std::uint32_t, Buffer> grids;                    ///< index buffers of quads by their columns,
-    std::map<std::uint32_t, Buffer> triangleGrids;            ///< of triangles by their rate
-    std::optional<GpuEnvironment> studio;                     ///< uploaded when first needed
-    std::unique_ptr<BallStudio> ball;                         ///< made when first needed
-    std::optional<GpuMatcap> ownMatcap;                       ///< of the picture's own material and lights
-    std::optional<Texture> shadingTable;                      ///< of `tablePhong`
+    std::map<std::vector<std::uint32_t>, PendingPipeline> pipelines; ///< by everything in which two of them may differ
+    std::map<std::uint32_t, Buffer> grids;                           ///< index buffers of quads by their columns,
+    std::map<std::uint32_t, Buffer> triangleGrids;                   ///< of triangles by their rate
+    std::optional<GpuEnvironment> studio;                            ///< uploaded when first needed
+    std::unique_ptr<BallStudio> ball;                                ///< made when first needed
+    std::optional<GpuMatcap> ownMatcap;                              ///< of the picture's own material and lights
+    std::optional<Texture> shadingTable;                             ///< of `tablePhong`
     PhongCoefficients tablePhong;
     Buffer occlusion; ///< two floats per pixel; made when first needed
     std::optional<LayerTargets> layerTargets;
@@ -120,7 +120,7 @@ struct Renderer::Parts {
     };
 
     // What a frame is made of, in this order.
-    Frame prepare(std::span<const Instance> instances, const RenderOptions& options);
+    Frame prepare(std::span<const Instance> instances, const RenderOptions& options, DrawPass pass);
     void record(VkCommandBuffer commands, Frame& frame);
     Picture read(Frame& frame);
 
@@ -136,20 +136,24 @@ struct Renderer::Parts {
     Drawn describe(const Frame& frame, const Instance& instance, std::size_t number);
     void makeTriangles(const Frame& frame, Drawn& drawn, FrameStats& stats);
     void makePlan(const Frame& frame, Drawn& drawn, FrameStats& stats);
+    [[nodiscard]] DiceOptions diceOptionsOf(const Frame& frame, const Drawn& drawn) const;
     void makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats);
     void makeGrids(const SurfaceModel& model, const DrawPlan& plan);
     void makeSets(Frame& frame, DrawPass pass);
     void useImages(Frame& frame);
     void writeInputs(VkCommandBuffer commands, const Frame& frame);
 
-    // Pipelines.
+    // Pipelines. Each starts to be made when it is first asked for.
     ShaderConstants constantsOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
-    const Pipeline& pipelineOf(const Frame& frame, const Drawn& drawn, DrawPass pass);
+    const PendingPipeline& drawPipeline(const Frame& frame, const Drawn& drawn, DrawPass pass);
+    void startPipelines(const Frame& frame);
+    void startGuessedPipelines(Frame& frame);
     std::vector<Stage> stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
     /// `surface`: what the shader works on; null for one that works on pixels or a mesh.
-    const Pipeline& computePipeline(const char* file, const SurfaceModel* surface, const ShaderConstants& constants);
-    const Pipeline& lightPipeline(const Frame& frame, bool addsLight = false);
-    const Pipeline& occlusionPipeline(const Frame& frame);
+    const PendingPipeline& computePipeline(const char* file, const SurfaceModel* surface,
+                                           const ShaderConstants& constants);
+    const PendingPipeline& lightPipeline(const Frame& frame, bool addsLight = false);
+    const PendingPipeline& occlusionPipeline(const Frame& frame);
 
     // Draws.
     [[nodiscard]] const Buffer& gridOf(const SurfaceModel& model, const DrawBatch& batch) const;
@@ -162,13 +166,13 @@ struct Renderer::Parts {
 
     // The compute rasterizer: raster.cpp.
     [[nodiscard]] std::string obstacleToRaster(const Frame& frame) const;
-    void chooseRasters(Frame& frame) const;
+    void chooseRasters(Frame& frame, std::uint64_t triangleCount) const;
     [[nodiscard]] bool needsIds(const Frame& frame) const;
     void useBuffers(Frame& frame);
     void makeMeshBuffers(const Frame& frame);
     void resolve(VkCommandBuffer commands, const Frame& frame);
     void submit(Frame& frame);
-    const Pipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
+    const PendingPipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
     /// Clears the target of a pass, and writes all instances to it.
     void rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target, uvec2 targetSize);
     void rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, DrawPass pass, uvec2 size);
@@ -184,7 +188,7 @@ struct Renderer::Parts {
     void renderLayers(Frame& frame, Picture& picture);
     void layerPass(VkCommandBuffer commands, const Frame& frame);
     void layerValuesPass(VkCommandBuffer commands, const Frame& frame);
-    const Pipeline& layerPipeline(const Frame& frame, const Drawn& drawn);
+    const PendingPipeline& layerPipeline(const Frame& frame, const Drawn& drawn);
 };
 
 /// kShading... of a picture. Throws Failure::usage for what cannot be drawn together.

@@ -201,7 +201,7 @@ void Renderer::Parts::useOcclusion(Frame& frame) {
 }
 
 void Renderer::Parts::occlusionPass(VkCommandBuffer commands, const Frame& frame) {
-    bind(commands, occlusionPipeline(frame), frame.set);
+    bind(commands, occlusionPipeline(frame).get(), frame.set);
     vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
     barrier(commands);
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "gpu/background_tasks.h"
 #include "gpu/descriptor_pools.h"
 #include "gpu/device_memory.h"
 #include "gpu/physical.h"
@@ -57,6 +58,7 @@ Device::Device(const DeviceDesc& desc) {
         uploads_ = std::make_unique<PendingUploads>(*this);
         descriptorPools_ = std::make_unique<DescriptorPools>(*this);
         pipelineCache_ = std::make_unique<PipelineCache>(device_, physical_);
+        backgroundTasks_ = std::make_unique<BackgroundTasks>();
     } catch (...) {
         destroy();
         throw;
@@ -66,6 +68,7 @@ Device::Device(const DeviceDesc& desc) {
 Device::~Device() { destroy(); }
 
 void Device::destroy() {
+    backgroundTasks_.reset(); // waits for pipelines in the making
     if (uploads_ != nullptr) uploads_->clear();
     uploads_.reset();
     pipelineCache_.reset();

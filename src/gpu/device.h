@@ -13,6 +13,7 @@
 
 namespace relief {
 
+class BackgroundTasks;
 class DescriptorPools;
 class PipelineCache;
 class DeviceMemory;
@@ -143,6 +144,7 @@ public:
     [[nodiscard]] PendingUploads& uploads() { return *uploads_; }
     [[nodiscard]] PipelineCache& pipelineCache() { return *pipelineCache_; }
     [[nodiscard]] DescriptorPools& descriptorPools() { return *descriptorPools_; }
+    [[nodiscard]] BackgroundTasks& backgroundTasks() { return *backgroundTasks_; }
 
 private:
     void makeInstance(bool validate, const DeviceDesc& desc);
@@ -171,6 +173,7 @@ private:
     std::unique_ptr<PendingUploads> uploads_;
     std::unique_ptr<DescriptorPools> descriptorPools_;
     std::unique_ptr<PipelineCache> pipelineCache_;
+    std::unique_ptr<BackgroundTasks> backgroundTasks_;
     std::uint64_t submitCount_ = 0;
     bool isValidating_ = false;
 };

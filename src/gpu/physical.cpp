@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <iostream>
+#include <mutex>
 
 namespace relief {
 namespace {
@@ -17,6 +18,8 @@ constexpr std::uint32_t kLavapipeTrianglesInFlight = 131072;
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    static std::mutex mutex; // pipelines are made by several threads
+    const std::lock_guard lock(mutex);
     static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
     std::cerr << "vulkan: " << data->pMessage << '\n';
     return VK_FALSE;

@@ -1,3 +1,6 @@
+#include <mutex>
+
+#include "gpu/background_tasks.h"
 #include "gpu/gpu.h"
 #include "gpu/pipeline_cache.h"
 #include "gpu/specialize.h"
@@ -161,6 +164,45 @@ Pipeline makeCompute(Device& device, const ComputeDesc& desc) {
                 "vkCreateComputePipelines");
     own(device, pipeline, handle, desc.name);
     return pipeline;
+}
+
+struct PendingPipeline::State {
+    std::mutex mutex;
+    std::function<Pipeline()> make; ///< empty once the pipeline is made
+    Pipeline pipeline;
+
+    /// The mutex is locked.
+    void finish() {
+        if (!make) return;
+        pipeline = make();
+        make = nullptr;
+    }
+};
+
+PendingPipeline::PendingPipeline(Device& device, std::function<Pipeline()> make) : state_(std::make_shared<State>()) {
+    state_->make = std::move(make);
+    device.backgroundTasks().add([state = state_] {
+        const std::unique_lock lock(state->mutex, std::try_to_lock);
+        if (!lock.owns_lock()) return; // somebody who needs it makes it already
+        try {
+            state->finish();
+        } catch (...) { // it fails again for those who need it, and they report it
+        }
+    });
+}
+
+const Pipeline& PendingPipeline::get() const {
+    const std::lock_guard lock(state_->mutex);
+    state_->finish();
+    return state_->pipeline;
+}
+
+PendingPipeline startGraphics(Device& device, GraphicsDesc desc) {
+    return {device, [&device, desc = std::move(desc)] { return makeGraphics(device, desc); }};
+}
+
+PendingPipeline startCompute(Device& device, ComputeDesc desc) {
+    return {device, [&device, desc = std::move(desc)] { return makeCompute(device, desc); }};
 }
 
 void bind(VkCommandBuffer commands, const Pipeline& pipeline, const BindingSet& bindings) {

@@ -1,6 +1,9 @@
 // Pipelines from SPIR-V, and what their shaders are given.
 #pragma once
 
+#include <functional>
+#include <memory>
+
 #include "gpu/memory.h"
 
 namespace relief {
@@ -48,6 +51,25 @@ struct Pipeline {
 /// Depth is reversed (1 near, 0 far) and compared greater-or-equal; viewport and scissor are dynamic.
 Pipeline makeGraphics(Device& device, const GraphicsDesc& desc);
 Pipeline makeCompute(Device& device, const ComputeDesc& desc);
+
+/// A pipeline that a thread of the device makes while its caller goes on; copies are the same one. It has to end before
+/// the device does.
+class PendingPipeline {
+public:
+    PendingPipeline() = default;
+    /// Starts to make it.
+    PendingPipeline(Device& device, std::function<Pipeline()> make);
+    /// Waits for the pipeline, or makes it here where no thread has begun to. Throws what making it throws.
+    const Pipeline& get() const;
+
+private:
+    struct State;
+    std::shared_ptr<State> state_;
+};
+
+/// As makeGraphics and makeCompute; the code of the stages must live until the pipeline is made.
+PendingPipeline startGraphics(Device& device, GraphicsDesc desc);
+PendingPipeline startCompute(Device& device, ComputeDesc desc);
 
 struct DescriptorPool;
 

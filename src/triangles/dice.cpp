@@ -34,6 +34,9 @@ struct Dicer::Parts {
     const DiceTable& tableOf(const SurfaceModel& model) {
         return tables.of(model, [&] { return makeDiceTable(device, model); });
     }
+    /// What the shaders of a model have in common; that of rates is missing.
+    [[nodiscard]] ShaderConstants constantsFor(const SurfaceModel& model, const DiceOptions& options) const;
+    void startPipelines(const SurfaceModel& model, ShaderConstants constants);
     /// Makes the buffers of the mesh and writes them.
     DicedMesh dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options);
 
@@ -54,8 +57,8 @@ struct Dicer::Parts {
         std::uint32_t rings, cells, pieces, otherVertices;
     };
     Passes passesOf(const DiceWork& work, const DiceTable& table, const FirstTiles& first) const;
-    /// Compiles the shaders of passes that have work to do.
-    void compile(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants);
+    /// Finds the pipelines of passes that have work to do.
+    void findPipelines(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants);
     /// Returns the milliseconds that the passes take.
     double runPasses(std::span<const Pass> passes, const BindingSet& set, const PassInputs& inputs);
 
@@ -131,12 +134,41 @@ Dicer::Parts::Passes Dicer::Parts::passesOf(const DiceWork& work, const DiceTabl
              {"dice_triangles.comp", work.rings.size(), {.first = first.rings}}}};
 }
 
-void Dicer::Parts::compile(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants) {
-    for (Pass& pass : passes) {
-        if (pass.groups == 0) continue;
+void Dicer::Parts::findPipelines(std::vector<Pass>& passes, const SurfaceModel& model, ShaderConstants constants) {
+    std::vector<const PendingPipeline*> pending;
+    for (const Pass& pass : passes) {
         constants.isCommon = pass.isCommon;
-        pass.pipeline = &stages.pipeline(pass.file, model, constants);
+        pending.push_back(pass.groups > 0 ? &stages.start(pass.file, model, constants) : nullptr);
     }
+    for (std::size_t i = 0; i < passes.size(); ++i)
+        if (pending[i] != nullptr) passes[i].pipeline = &pending[i]->get();
+}
+
+ShaderConstants Dicer::Parts::constantsFor(const SurfaceModel& model, const DiceOptions& options) const {
+    ShaderConstants constants = constantsOf(model, options.normal);
+    constants.wantsTexCoords = options.wantsTexCoords;
+    constants.hasTexGradients = options.wantsTexGradients;
+    constants.hasSlopes = options.wantsTexGradients && model.functionBendsNormals;
+    constants.groupSize = device.traits().smallGroup;
+    return constants;
+}
+
+/// In the order of passesOf(). Rates may leave some of them without work; most have some with all rates.
+void Dicer::Parts::startPipelines(const SurfaceModel& model, ShaderConstants constants) {
+    const auto regularCount = std::size_t(std::ranges::count(model.patchIsRegular, true));
+    const bool hasRegular = regularCount > 0 && !model.isTriangles();
+    const bool hasOthers = !hasRegular || regularCount < model.patchIsRegular.size();
+    const auto start = [&](const char* file, bool isCommon) {
+        constants.isCommon = isCommon;
+        stages.start(file, model, constants);
+    };
+    if (hasRegular) start("dice_insides.comp", true);
+    if (hasOthers) start("dice_insides.comp", false);
+    if (hasRegular && device.traits().readsTablesAs == TableAccess::texelBuffers) start("dice_edges.comp", true);
+    start("dice_edges.comp", false); // corners at least
+    const DiceTable& table = tableOf(model);
+    if (table.firstSmoothRun < table.runs.size()) start("dice_smooth_edges.comp", false);
+    for (const bool isCommon : {true, false}) start("dice_triangles.comp", isCommon);
 }
 
 DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options) {
@@ -177,16 +209,12 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     inputs.targets.dicedTexGradients = mesh.texGradients.buffer.address;
     inputs.targets.dicedIndices = mesh.indices.buffer.address;
 
-    ShaderConstants constants = constantsOf(model, options.normal);
-    constants.wantsTexCoords = options.wantsTexCoords;
-    constants.hasTexGradients = options.wantsTexGradients;
-    constants.hasSlopes = options.wantsTexGradients && model.functionBendsNormals;
+    ShaderConstants constants = constantsFor(model, options);
     constants.hasMips = rates.hasMips();
     constants.readsNodes = readsNodes(model, rates);
-    constants.groupSize = device.traits().smallGroup;
     Passes passes = passesOf(work, table, first);
-    compile(passes.vertices, model, constants);
-    compile(passes.triangles, model, constants);
+    findPipelines(passes.vertices, model, constants);
+    findPipelines(passes.triangles, model, constants);
     const BindingSet set = makeBindingSet(device, *passes.triangles.back().pipeline, passLayout(device), bindings);
 
     // Vertices and triangles do not wait for each other, unless their times are asked for apart.
@@ -226,6 +254,12 @@ double Dicer::Parts::runPasses(std::span<const Pass> passes, const BindingSet& s
     const std::vector<double> times = timer.intervals();
     if (device.traits().isCpu) return 1e3 * (secondsNow() - start);
     return times.empty() ? 0 : times[0];
+}
+
+void Dicer::startPipelines(const SurfaceModel& model, const DiceOptions& options, bool hasMips) {
+    ShaderConstants constants = parts_->constantsFor(model, options);
+    constants.hasMips = hasMips;
+    parts_->startPipelines(model, constants);
 }
 
 DicedMesh Dicer::dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options) {

@@ -16,6 +16,8 @@ struct EdgeFootprint {
 
 namespace {
 
+constexpr const char* kFootprintShader = "footprints.comp";
+constexpr const char* kRateShader = "rates.comp";
 constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
 
 /// Most segments per edge of hardware tessellation: an even number.
@@ -66,6 +68,7 @@ struct EdgeRater::Parts {
         double* milliseconds = nullptr; ///< device time, if measured
     };
     std::vector<float> measure(const Measure& what, const SurfaceModel& model, PassInputs inputs);
+    const PendingPipeline& start(const char* file, std::size_t floatCount, const SurfaceModel& model);
     const std::vector<EdgeFootprint>& edgeFootprints(const SurfaceModel& model);
     std::vector<EdgeFootprint> measureFootprints(const SurfaceModel& model);
     std::vector<float> measureRates(const SurfaceModel& model, const TriangleOptions& options, const View& view,
@@ -75,6 +78,12 @@ struct EdgeRater::Parts {
 
 EdgeRater::EdgeRater(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 EdgeRater::~EdgeRater() = default;
+
+const PendingPipeline& EdgeRater::Parts::start(const char* file, std::size_t floatCount, const SurfaceModel& model) {
+    ShaderConstants constants = constantsOf(model, NormalKind::limit);
+    constants.wantsTexCoords = floatCount > 1;
+    return stages.start(file, model, constants);
+}
 
 /// Runs a shader with one invocation per edge, which writes `floatCount` numbers to inputs.targets.edges. Returns them,
 /// edge after edge.
@@ -91,9 +100,7 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceM
     if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights] = what.edgeHeights->binding();
 
     // One submission with the copy to the host: plans of draws wait for the numbers.
-    ShaderConstants constants = constantsOf(model, NormalKind::limit);
-    constants.wantsTexCoords = what.floatCount > 1;
-    const Pipeline& pipeline = stages.pipeline(what.file, model, constants);
+    const Pipeline& pipeline = start(what.file, what.floatCount, model).get();
     const Download download(device, numbers.size() * sizeof(float));
     const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
     device.submitAndWait([&](VkCommandBuffer commands) {
@@ -128,7 +135,7 @@ std::vector<EdgeFootprint> EdgeRater::Parts::measureFootprints(const SurfaceMode
         for (const EdgeHeights& edge : model.edgeHeights) edges.push_back({edge.segments, edge.range});
         return edges;
     }
-    const std::vector<float> words = measure({.file = "footprints.comp", .floatCount = kFootprintFloats}, model, {});
+    const std::vector<float> words = measure({.file = kFootprintShader, .floatCount = kFootprintFloats}, model, {});
     for (std::size_t i = 0; i < words.size(); i += kFootprintFloats) {
         const TexBox box{vec2(words[i + 1], words[i + 2]), vec2(words[i + 3], words[i + 4])};
         const Range range = model.heightPyramid.range(box);
@@ -156,7 +163,7 @@ std::vector<float> EdgeRater::Parts::measureRates(const SurfaceModel& model, con
     for (std::size_t i = 0; i < edges.size(); ++i) ranges[i] = edges[i].heightRange;
     const TexelBuffer heights =
         uploadTexels(device, {.name = "edge heights"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(ranges)));
-    return measure({.file = "rates.comp", .edgeHeights = &heights, .milliseconds = milliseconds}, model, inputs);
+    return measure({.file = kRateShader, .edgeHeights = &heights, .milliseconds = milliseconds}, model, inputs);
 }
 
 /// Mip level per corner: the mean, over the edges that meet there, of log2(texels per segment), at least 0. Empty where
@@ -175,6 +182,13 @@ std::vector<float> EdgeRater::Parts::cornerLevels(const SurfaceModel& model, con
     if (!isAny) return {};
     for (std::size_t corner = 0; corner < levels.size(); ++corner) levels[corner] /= std::max(counts[corner], 1.0f);
     return levels;
+}
+
+void EdgeRater::startPipelines(const SurfaceModel& model, const TriangleOptions& options) {
+    const bool measuresFootprints = model.height && !model.function && model.addressing() != Addressing::faces;
+    if (measuresFootprints && (options.filtersHeights || !options.rate))
+        parts_->start(kFootprintShader, kFootprintFloats, model);
+    if (!options.rate) parts_->start(kRateShader, 1, model);
 }
 
 EdgeRates EdgeRater::rates(const SurfaceModel& model, const TriangleOptions& options, const View& view,

@@ -2,14 +2,17 @@
 
 namespace relief {
 
-const Pipeline& ComputeStages::pipeline(const char* file, const SurfaceModel& model, const ShaderConstants& constants) {
+const PendingPipeline& ComputeStages::start(const char* file, const SurfaceModel& model,
+                                            const ShaderConstants& constants) {
     std::pair<std::string, std::vector<std::uint32_t>> key{file, constants.values()};
     key.second.push_back(model.isTriangles());
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
     const Stage stage = shaderStage(device_, VK_SHADER_STAGE_COMPUTE_BIT, file, model);
-    return pipelines_[key] = makeCompute(
-               device_, {.name = file, .stage = stage, .constants = constants.values(), .layout = passLayout(device_)});
+    PendingPipeline& made = pipelines_[key] = startCompute(
+        device_, {.name = file, .stage = stage, .constants = constants.values(), .layout = passLayout(device_)});
+    if (model.function) made.get(); // its code lives as long as the function
+    return made;
 }
 
 } // namespace relief

@@ -30,15 +30,19 @@ private:
     std::vector<Entry> entries_;
 };
 
-/// Compute pipelines by shader and constants, made when first asked for.
+/// Compute pipelines by shader and constants.
 class ComputeStages {
 public:
     explicit ComputeStages(Device& device) : device_(device) {}
-    const Pipeline& pipeline(const char* file, const SurfaceModel& model, const ShaderConstants& constants);
+    /// Starts to make a pipeline when it is first asked for.
+    const PendingPipeline& start(const char* file, const SurfaceModel& model, const ShaderConstants& constants);
+    const Pipeline& pipeline(const char* file, const SurfaceModel& model, const ShaderConstants& constants) {
+        return start(file, model, constants).get();
+    }
 
 private:
     Device& device_;
-    std::map<std::pair<std::string, std::vector<std::uint32_t>>, Pipeline> pipelines_;
+    std::map<std::pair<std::string, std::vector<std::uint32_t>>, PendingPipeline> pipelines_;
 };
 
 /// What shaders read of rates: the rates themselves and the mip levels of the height map.

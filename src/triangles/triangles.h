@@ -62,14 +62,16 @@ public:
     /// Throws Failure::usage for a rate or path that the device cannot do. `milliseconds`: device time, if measured.
     EdgeRates rates(const SurfaceModel& model, const TriangleOptions& options, const View& view,
                     double* milliseconds = nullptr);
+    /// Starts to make the pipelines that rates() will need for a model.
+    void startPipelines(const SurfaceModel& model, const TriangleOptions& options);
 
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
 
-/// Whether rates of up to `maxRate` are the tessellator's limit, so that segments may be longer than edgePixels asks for.
-/// The other paths make up to 1024 segments.
+/// Whether rates of up to `maxRate` are the tessellator's limit, so that segments may be longer than edgePixels asks
+/// for. The other paths make up to 1024 segments.
 bool isCutShort(const TriangleOptions& options, const DeviceTraits& traits, std::uint32_t maxRate);
 
 /// Segments around and inside a face.
@@ -154,6 +156,9 @@ public:
     DicedMesh dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
     /// Dices the surface and reads the mesh back to host memory. Throws as dice() does.
     DenseMesh diceToHost(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
+    /// Starts to make the pipelines that dice() will need, before there are rates. `hasMips`: a guess at
+    /// EdgeRates::hasMips(); where it is wrong they are made in vain.
+    void startPipelines(const SurfaceModel& model, const DiceOptions& options, bool hasMips);
 
     struct Parts;
 
