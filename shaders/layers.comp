@@ -17,6 +17,36 @@ layout(set = 0, binding = kBindNormals) uniform sampler2D normalsAndTexCoords;
 layout(set = 0, binding = kBindColors) uniform sampler2D surfacePoints;
 layout(set = 0, binding = kBindInstances) uniform usampler2D instances; // kHasInstances
 
+layout(constant_id = kIdReadsSampleBuffers) const bool kReadsSampleBuffers = false; // else images
+RELIEF_TABLE(kBindSamples, uvec4, samplePair)
+RELIEF_TABLE(kBindSampleColors, uvec4, sampleWords)
+RELIEF_TABLE(kBindSampleInstances, uvec4, sampleInstances)
+
+// What a pixel sees at its centre: what layers.frag, or raster_layers.comp, has written.
+struct SeenPoint {
+    float depth;
+    vec4 normalAndTexCoords;
+    vec4 surfacePoint; // w is 0 where nothing is seen
+    uint instance;     // kHasInstances
+};
+
+SeenPoint seenPoint(ivec2 at, uint pixel) {
+    SeenPoint seen;
+    if (kReadsSampleBuffers) {
+        uvec4 two = samplePair(pixel >> 1u);
+        seen.depth = uintBitsToFloat((pixel & 1u) == 0u ? two.y : two.w);
+        seen.normalAndTexCoords = uintBitsToFloat(sampleWords(2u * pixel));
+        seen.surfacePoint = uintBitsToFloat(sampleWords(2u * pixel + 1u));
+        seen.instance = kHasInstances ? sampleInstances(pixel).x : 0u;
+        return seen;
+    }
+    seen.depth = texelFetch(depths, at, 0).r;
+    seen.normalAndTexCoords = texelFetch(normalsAndTexCoords, at, 0);
+    seen.surfacePoint = texelFetch(surfacePoints, at, 0);
+    seen.instance = kHasInstances ? texelFetch(instances, at, 0).x : 0u;
+    return seen;
+}
+
 vec2 pixelOf(mat4 toClip, vec3 position) {
     vec4 clip = toClip * vec4(position, 1.0);
     return (0.5 * clip.xy / clip.w + 0.5) * vec2(inputs.view.pictureSize);
@@ -40,10 +70,11 @@ vec2 motionOf(uint face, vec2 uv) {
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, inputs.view.pictureSize))) return;
-    uint first = kLayerChannels * uint(at.y * inputs.view.pictureSize.x + at.x);
-    vec4 seen = texelFetch(surfacePoints, at, 0);
+    uint pixel = uint(at.y * inputs.view.pictureSize.x + at.x), first = kLayerChannels * pixel;
+    SeenPoint point = seenPoint(at, pixel);
+    vec4 seen = point.surfacePoint;
     if (kHasInstances) { // each instance has a dispatch of its own
-        uint instance = seen.w == 0.0 ? 0u : texelFetch(instances, at, 0).x;
+        uint instance = seen.w == 0.0 ? 0u : point.instance;
         if (instance != inputs.view.instance) return;
     }
     for (uint i = 0u; i < kLayerChannels; ++i) inputs.targets.layers.at[first + i] = 0.0;
@@ -52,9 +83,9 @@ void main() {
     if (seen.w == 0.0) return;
 
     vec2 ndc = (vec2(at) + 0.5) / vec2(inputs.view.pictureSize) * 2.0 - 1.0;
-    vec4 world = inputs.view.fromClip * vec4(ndc, texelFetch(depths, at, 0).r, 1.0);
+    vec4 world = inputs.view.fromClip * vec4(ndc, point.depth, 1.0);
     vec3 position = world.xyz / world.w;
-    vec4 other = texelFetch(normalsAndTexCoords, at, 0);
+    vec4 other = point.normalAndTexCoords;
     vec3 normal = fromOctahedral(other.xy);
     uint face = uint(seen.w - 1.0);
     inputs.targets.layers.at[first + kLayerDepth] = (inputs.view.toClip * vec4(position, 1.0)).w;

@@ -26,7 +26,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 8) buffer Longs { uint
 layout(constant_id = kIdShow) const uint kShow = kShowShaded;
 layout(constant_id = kIdWritesIds) const bool kWritesIds = false; // samples get numbers of triangles instead of normals
 
-// Per pixel. No constants: Mesa 22.3 cannot compile those that follow from a specialization constant.
+// Per pixel: of layers one, at its centre. No constants: Mesa 22.3 cannot compile those that follow from a specialization constant.
 uint sampleCount() { return kPass == kPassSurface ? kMostSamples : 1u; }
 
 // --- vertices on the screen -------------------------------------------------------------------------------------------
@@ -105,6 +105,6 @@ void store(ivec2 pixel, uint s, vec3 weights, Attributes all, uint triangle, boo
     uint low = (push.firstId + triangle) << 1 | (isFront ? 1u : 0u);
     if (!kWritesIds) low = packNormal(weights.x * all.normals[0] + weights.y * all.normals[1] + weights.z * all.normals[2]);
     uvec2 words = uvec2(low, floatBitsToUint(max(depth, 0.0)));
-    atomicMax(Longs(inputs.targets.samples).at[kMostSamples * at + s], packUint2x32(words));
+    atomicMax(Longs(inputs.targets.samples).at[sampleCount() * at + s], packUint2x32(words));
 }
 #endif

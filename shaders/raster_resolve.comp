@@ -1,14 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "inputs.glsl"
-#define RELIEF_LOCATION(i)
-#define RELIEF_FLAT
-#define RELIEF_VARYING
-#define RELIEF_OWN_DERIVATIVES
-#include "varyings.glsl"
-#include "detail.glsl"
-#include "octahedral.glsl"
-#include "rounding.glsl"
+#include "raster_fragments.glsl"
 
 // Normals and colours of the samples of one instance, which raster_*.comp have left the numbers of their triangles in: what
 // surface.frag makes of a fragment is made here of each sample, at the sample.
@@ -16,78 +9,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = kIdShow) const uint kShow = kShowShaded;
 layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
-layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
-layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false;
-layout(constant_id = kIdIsMesh) const bool kIsMesh = false;
 
-#include "raster_samples.glsl"
 #include "techniques.glsl"
 
-layout(push_constant, scalar) uniform PushBlock { RasterPush push; };
-
-RELIEF_TABLE(kBindMesh, vec4, meshAt)
-RELIEF_TABLE(kBindMeshIndices, uint, meshIndex)
-RELIEF_TABLE(kBindMeshTexCoords, vec2, meshTexCoords)
-RELIEF_TABLE(kBindMeshTexGradients, vec4, meshTexGradients)
-RELIEF_TABLE(kBindFaceTriangles, uint, faceTriangle)
-RELIEF_TABLE(kBindSamples, uvec4, samplePair)
-
-// Perspective-correct weights of the corners at a point of the picture, 0..1 each. With corners moved so that the point is the
-// origin, weight i is proportional to the area of the others with it: x_j y_k - x_k y_j, of homogeneous coordinates (Olano and
-// Greer 1997, section 4). A sample may lie outside by as much as the corners were snapped: weights are not negative.
-vec3 weightsAt(vec3 corners[3], vec2 ndc) {
-    vec2 a = corners[0].xy - ndc * corners[0].z, b = corners[1].xy - ndc * corners[1].z, c = corners[2].xy - ndc * corners[2].z;
-    vec3 areas = vec3(b.x * c.y - c.x * b.y, c.x * a.y - a.x * c.y, a.x * b.y - b.x * a.y);
-    float sum = areas.x + areas.y + areas.z;
-    if (sum == 0.0) return vec3(1.0 / 3.0);
-    vec3 weights = max(areas / sum, vec3(0));
-    return weights / (weights.x + weights.y + weights.z);
-}
-
-// The face of a diced mesh that a triangle belongs to.
-uint faceOf(uint triangle) {
-    uint low = 0u, high = push.faceCount; // the first triangle of face `low` is not after it, that of `high` is
-    while (low + 1u < high) {
-        uint middle = (low + high) / 2u;
-        if (faceTriangle(2u * middle) <= triangle) low = middle;
-        else high = middle;
-    }
-    return low;
-}
-
-// Sets the varyings to what they are at a sample.
-void interpolate(uint triangle, vec2 ndc) {
-    uint vertices[3];
-    vec3 corners[3];
-    vec4 positions[3];
-    for (uint i = 0u; i < 3u; ++i) {
-        vertices[i] = meshIndex(3u * triangle + i);
-        positions[i] = meshAt(2u * vertices[i]);
-        corners[i] = project(positions[i].xyz).xyw;
-    }
-    vec2 pixel = 2.0 / vec2(inputs.view.pictureSize);
-    vec3 w = weightsAt(corners, ndc);
-    vec3 right = weightsAt(corners, ndc + vec2(pixel.x, 0.0)), below = weightsAt(corners, ndc + vec2(0.0, pixel.y));
-    vNormal = vec3(0);
-    vTexCoord = vGradientS = vGradientT = vec4(0);
-    vHeight = 0.0;
-    stepX = stepY = vec2(0);
-    for (uint i = 0u; i < 3u; ++i) {
-        uint vertex = vertices[i];
-        vNormal += w[i] * worldNormal(meshAt(2u * vertex + 1u).xyz);
-        vHeight += w[i] * positions[i].w;
-        if (kHasTexCoords && kWantsTexCoords) {
-            vec2 st = meshTexCoords(vertex);
-            vTexCoord.xy += w[i] * st;
-            stepX += (right[i] - w[i]) * st;
-            stepY += (below[i] - w[i]) * st;
-        }
-        if (kHasTexGradients) {
-            vGradientS += w[i] * worldGradient(meshTexGradients(kGradientTexels * vertex));
-            vGradientT += w[i] * worldGradient(meshTexGradients(kGradientTexels * vertex + 1u));
-        }
-    }
-    vFace = vertices[0] / 64u;
+// A whole mesh shows patches of 64 vertices in place of faces, as in mesh.vert.
+void setFace(uint triangle, uint vertex) {
+    vFace = vertex / 64u;
     vRate = 1u;
     if (kIsMesh || (kShow != kShowFaces && kShow != kShowRate)) return;
     uint face = faceOf(triangle);
@@ -105,7 +32,8 @@ void main() {
         uint triangle = (one.x >> 1u) - push.firstId;
         if (one.y == 0u || triangle >= push.count) continue; // nothing, or another instance's
         vec2 ndc = (vec2(at) + vec2(placeInPixel(s)) / 256.0) / vec2(inputs.view.pictureSize) * 2.0 - 1.0;
-        interpolate(triangle, ndc);
+        Weighted corners = interpolate(triangle, ndc);
+        setFace(triangle, corners.vertices[0]);
         vec3 n = fragmentNormal();
         if ((one.x & 1u) == 0u && kShow != kShowNormal) n = -n;
         uint color = packColor(storedColor(techniqueColor(), kShow == kShowShaded));

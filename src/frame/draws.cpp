@@ -66,7 +66,7 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
     drawn.bindings[kBindMeshIndices] = mesh.indices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
-    if (frame.technique.wantsFaces) {
+    if (frame.technique.wantsFaces || !frame.options.layers.empty()) {
         std::vector<std::uint32_t> words;
         for (std::size_t face = 0; face < mesh.faceRates.size(); ++face)
             words.insert(words.end(), {mesh.firstTriangles[face], mesh.faceRates[face]});

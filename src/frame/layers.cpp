@@ -32,7 +32,10 @@ const PendingPipeline& Renderer::Parts::layerPipeline(const Frame& frame, const 
     ShaderConstants constants = constantsOf(frame, drawn, DrawPass::layers);
     constants.wantsTexCoords = false;
     constants.hasMotion = drawn.surface != nullptr && drawn.surface->hasMotion();
-    return computePipeline("layers.comp", drawn.surface, constants);
+    constants.readsSampleBuffers = frame.raster == Raster::compute;
+    return computePipeline(
+        "layers.comp", constants,
+        {.function = drawn.surface != nullptr ? drawn.function() : nullptr, .isTriangles = drawn.isTriangles()});
 }
 
 /// Each instance writes the pixels that see it, the first one also those that see nothing.
@@ -44,32 +47,67 @@ void Renderer::Parts::layerValuesPass(VkCommandBuffer commands, const Frame& fra
     barrier(commands);
 }
 
-/// The triangles of the picture with one sample per pixel. Vertices of a diced mesh belong to several faces, which
-/// layers keep apart: it is drawn face by face.
-void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
-    // Targets are made when layers are first asked for.
+void Renderer::Parts::useLayerImages(Frame& frame) {
     if (!layerTargets) layerTargets = makeLayerTargets(device, desc);
     if (frame.hasInstances() && !layerTargets->instances)
         layerTargets->instances = makeInstanceTarget(device, desc, VK_SAMPLE_COUNT_1_BIT);
-
-    // The instances of the picture again, with other targets.
     for (Drawn& drawn : frame.drawn) {
-        drawn.inputs.targets.layers = layerTargets->values.address;
         drawn.bindings[kBindDepths].view = layerTargets->depths.view.get();
         drawn.bindings[kBindNormals].view = layerTargets->normals.view.get();
         drawn.bindings[kBindColors].view = layerTargets->surfacePoints.view.get();
         drawn.bindings[kBindInstances] = resources.bindings()[kBindInstances];
         if (frame.hasInstances()) drawn.bindings[kBindInstances].view = layerTargets->instances->view.get();
     }
+}
+
+/// The samples and colours of the picture, which is finished, hold those of layers now.
+void Renderer::Parts::useLayerBuffers(Frame& frame) {
+    useSampleTables(frame, true);
+    for (Drawn& drawn : frame.drawn) {
+        for (const std::uint32_t slot : {kBindDepths, kBindNormals, kBindColors, kBindInstances})
+            drawn.bindings[slot] = resources.bindings()[slot]; // images of one sample, which nothing reads
+        drawn.bindings[kBindSampleColors] = buffers->colors.binding();
+        if (frame.hasInstances()) drawn.bindings[kBindSampleInstances] = buffers->instances.binding();
+        if (drawn.surface == nullptr) continue;
+        const std::vector<DicedFacePush>& faces = drawn.diced.faces;
+        RELIEF_CHECK(faces.size() == drawn.diced.faceRates.size());
+        drawn.dicedFaces =
+            uploadTexels(device, {.name = "diced faces"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(faces)));
+        drawn.bindings[kBindDiceTable] = drawn.dicedFaces.binding();
+    }
+}
+
+/// The triangles of the picture with one sample per pixel, by the same rasterizer. Vertices of a diced mesh belong to
+/// several faces, which layers keep apart: draws of the device are one per face.
+void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
+    // The instances of the picture again, with other targets.
+    const bool inCompute = frame.raster == Raster::compute;
+    if (layerValues.bytes == 0) layerValues = makeLayerBuffer(device, desc);
+    for (Drawn& drawn : frame.drawn) drawn.inputs.targets.layers = layerValues.address;
+    if (inCompute)
+        useLayerBuffers(frame);
+    else
+        useLayerImages(frame);
     makeSets(frame, DrawPass::layers);
-    device.submitAndWait([&](VkCommandBuffer commands) {
+
+    // What each pixel sees, then what that is.
+    const auto record = [&](VkCommandBuffer commands) {
         writeInputs(commands, frame);
-        layerPass(commands, frame);
+        if (inCompute) {
+            rasterize(commands, frame, DrawPass::layers, buffers->samples.buffer, size());
+            resolveLayers(commands, frame);
+        } else {
+            layerPass(commands, frame);
+        }
         layerValuesPass(commands, frame);
-    });
+    };
+    if (inCompute)
+        submitRastered(record);
+    else
+        device.submitAndWait(record);
 
     // Layers have cage units, whatever the unit of the model is.
-    const auto* values = static_cast<const float*>(layerTargets->values.mapped);
+    const auto* values = static_cast<const float*>(layerValues.mapped);
     picture.layerValues.assign(values, values + std::size_t(desc.width) * std::size_t(desc.height) * kLayerChannels);
     if (frame.options.unit != 1) scaleLengths(picture.layerValues, frame.options.unit);
     picture.layers = frame.options.layers;

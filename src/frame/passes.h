@@ -43,13 +43,14 @@ TexelBuffer makeSampleTable(Device& device, const RendererDesc& desc, const char
 Buffer makePictureBuffer(Device& device, const RendererDesc& desc);
 Texture makeInstanceTarget(Device& device, const RendererDesc& desc, VkSampleCountFlagBits samples);
 
-/// The images that layers are made from, one sample per pixel; made when layers are first asked for.
+/// The images that the device draws layers to, one sample per pixel; made when it first does.
 struct LayerTargets {
     Texture normals, surfacePoints, depths; ///< what layers.frag writes
     std::optional<Texture> instances;
-    Buffer values; ///< kLayerChannels floats per pixel, mapped
 };
 
 LayerTargets makeLayerTargets(Device& device, const RendererDesc& desc);
+/// kLayerChannels floats per pixel, mapped.
+Buffer makeLayerBuffer(Device& device, const RendererDesc& desc);
 
 } // namespace relief

@@ -96,41 +96,36 @@ const PendingPipeline& Renderer::Parts::drawPipeline(const Frame& frame, const D
     return made;
 }
 
-const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const SurfaceModel* surface,
-                                                        const ShaderConstants& constants) {
+const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const ShaderConstants& constants,
+                                                        Variant variant) {
     const std::vector<std::uint32_t> values = constants.values();
     std::vector<std::uint32_t> key = values;
-    key.push_back(surface != nullptr && surface->isTriangles() ? 1 : 0);
+    key.push_back(variant.isTriangles ? 1 : 0);
     for (const char* letter = file; *letter != 0; ++letter) key.push_back(std::uint32_t(*letter));
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
-    PendingPipeline& made = pipelines[key] = startCompute(
-        device, {.name = file,
-                 .stage = surface != nullptr ? shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, *surface)
-                                             : shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file),
-                 .constants = values,
-                 .layout = passLayout(device)});
-    if (surface != nullptr && surface->function) made.get(); // its code lives as long as the function
+    const Stage stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, variant.function, variant.isTriangles);
+    PendingPipeline& made = pipelines[key] =
+        startCompute(device, {.name = file, .stage = stage, .constants = values, .layout = passLayout(device)});
+    if (variant.function != nullptr) made.get(); // its code lives as long as the function
     return made;
 }
 
 const PendingPipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLight) {
-    return computePipeline("light.comp", nullptr,
-                           {.show = frame.technique.constant,
-                            .hasInstances = frame.hasInstances(),
-                            .readsSampleBuffers = frame.raster == Raster::compute,
-                            .readsShadowCodes = frame.shadowRaster == Raster::compute,
-                            .hasSampleColors = frame.writesIds,
-                            .shading = frame.shading,
-                            .addsLight = addsLight,
-                            .hasOcclusion = frame.hasOcclusion()});
+    return computePipeline("light.comp", {.show = frame.technique.constant,
+                                          .hasInstances = frame.hasInstances(),
+                                          .readsSampleBuffers = frame.raster == Raster::compute,
+                                          .readsShadowCodes = frame.shadowRaster == Raster::compute,
+                                          .hasSampleColors = frame.writesIds,
+                                          .shading = frame.shading,
+                                          .addsLight = addsLight,
+                                          .hasOcclusion = frame.hasOcclusion()});
 }
 
 const PendingPipeline& Renderer::Parts::occlusionPipeline(const Frame& frame) {
-    return computePipeline("occlusion.comp", nullptr,
-                           {.show = frame.technique.constant,
-                            .readsSampleBuffers = frame.raster == Raster::compute,
-                            .hasSampleColors = frame.writesIds});
+    return computePipeline("occlusion.comp", {.show = frame.technique.constant,
+                                              .readsSampleBuffers = frame.raster == Raster::compute,
+                                              .hasSampleColors = frame.writesIds});
 }
 
 // --- in advance -----------------------------------------------------------------------------------------------------
@@ -149,8 +144,7 @@ void Renderer::Parts::startPipelines(const Frame& frame) {
         if (frame.castsShadows()) startPass(drawn, DrawPass::shadow, frame.shadowRaster);
     for (const Drawn& drawn : frame.drawn) {
         startPass(drawn, DrawPass::surface, frame.raster);
-        if (frame.writesIds)
-            computePipeline("raster_resolve.comp", nullptr, constantsOf(frame, drawn, DrawPass::surface));
+        if (frame.writesIds) computePipeline("raster_resolve.comp", constantsOf(frame, drawn, DrawPass::surface));
         if (frame.technique.hasLines) drawPipeline(frame, drawn, DrawPass::lines);
     }
     if (frame.hasOcclusion()) occlusionPipeline(frame);

@@ -98,10 +98,6 @@ bool Renderer::Parts::needsIds(const Frame& frame) const {
 void Renderer::Parts::useBuffers(Frame& frame) {
     if (!buffers) buffers = makeSampleBuffers(device, desc);
     frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
-    if (frame.writesIds && buffers->colors.buffer.bytes == 0)
-        buffers->colors = makeSampleTable(device, desc, "colors of samples", 32);
-    if (frame.hasInstances() && buffers->instances.buffer.bytes == 0)
-        buffers->instances = makeSampleTable(device, desc, "instances of samples", 16);
     makeMeshBuffers(frame);
 
     // What the passes write, and light.comp reads.
@@ -113,15 +109,26 @@ void Renderer::Parts::useBuffers(Frame& frame) {
         drawn.bindings[kBindSamples] = buffers->samples.binding();
         drawn.inputs.targets.screen = buffers->screen.buffer.address;
         drawn.inputs.targets.samples = buffers->samples.buffer.address;
-        drawn.inputs.targets.sampleColors = buffers->colors.buffer.address;
-        drawn.inputs.targets.sampleInstances = buffers->instances.buffer.address;
         drawn.inputs.targets.shadow = buffers->shadow.buffer.address;
         drawn.inputs.targets.largeTriangles = buffers->large.address;
     }
     frame.bindings[kBindSamples] = buffers->samples.binding();
     frame.bindings[kBindShadowCodes] = buffers->shadow.binding();
+    useSampleTables(frame, frame.writesIds);
     if (frame.writesIds) frame.bindings[kBindSampleColors] = buffers->colors.binding();
     if (frame.hasInstances()) frame.bindings[kBindSampleInstances] = buffers->instances.binding();
+}
+
+/// What samples hold besides depths and normals, made when first needed.
+void Renderer::Parts::useSampleTables(Frame& frame, bool writesColors) {
+    if (writesColors && buffers->colors.buffer.bytes == 0)
+        buffers->colors = makeSampleTable(device, desc, "colors of samples", 32);
+    if (frame.hasInstances() && buffers->instances.buffer.bytes == 0)
+        buffers->instances = makeSampleTable(device, desc, "instances of samples", 16);
+    for (Drawn& drawn : frame.drawn) {
+        drawn.inputs.targets.sampleColors = buffers->colors.buffer.address;
+        drawn.inputs.targets.sampleInstances = buffers->instances.buffer.address;
+    }
 }
 
 /// Vertices on the screen and the list of large triangles: for one instance after another, so that the largest decides.
@@ -151,12 +158,14 @@ const PendingPipeline& Renderer::Parts::rasterPipeline(const char* file, const F
     // Few large triangles: on CPU drivers invocations beyond the lanes would only repeat the cuts.
     const bool isLarge = std::string_view(file) == kLargeShader;
     ShaderConstants constants{.groupSize = isLarge ? device.traits().smallGroup : kRasterGroup, .pass = row.constant};
-    if (row.hasNormals) {
+    if (pass == DrawPass::layers) {
+        constants.writesIds = true;
+    } else if (row.hasNormals) {
         constants.writesIds = frame.writesIds;
         constants.show = frame.technique.constant;
         constants.isPlaced = drawn.inputs.view.normalToWorld != mat3(1);
     }
-    return computePipeline(file, nullptr, constants);
+    return computePipeline(file, constants);
 }
 
 void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, DrawPass pass,
@@ -197,18 +206,22 @@ void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, Dr
     for (const Drawn& drawn : frame.drawn) rasterizeMesh(commands, frame, drawn, pass, targetSize);
 }
 
-/// Records and submits the picture. The shader for large triangles takes long to compile and few pictures need it: it
-/// is left out until a picture has some, which is then drawn again.
 void Renderer::Parts::submit(Frame& frame) {
-    if (!frame.rastersInCompute()) {
-        device.submitAndWait([&](VkCommandBuffer commands) { record(commands, frame); });
-        return;
-    }
+    const auto recordPicture = [&](VkCommandBuffer commands) { record(commands, frame); };
+    if (frame.rastersInCompute())
+        submitRastered(recordPicture);
+    else
+        device.submitAndWait(recordPicture);
+}
+
+/// Records and submits what the compute rasterizer draws. The shader for large triangles takes long to compile and few
+/// pictures need it: it is left out until a picture has some, which is then drawn again.
+void Renderer::Parts::submitRastered(const std::function<void(VkCommandBuffer)>& record) {
     const Download seen(device, (kLargeSeen + 1) * 4);
     for (;;) {
         device.submitAndWait([&](VkCommandBuffer commands) {
             vkCmdFillBuffer(commands, buffers->large.handle.get(), kLargeSeen * 4, 4, 0);
-            record(commands, frame);
+            record(commands);
             seen.record(commands, buffers->large);
         });
         std::uint32_t words[kLargeSeen + 1];
@@ -218,19 +231,35 @@ void Renderer::Parts::submit(Frame& frame) {
     }
 }
 
+/// A pass over all pixels for the triangles of one instance.
+void Renderer::Parts::dispatchPixels(VkCommandBuffer commands, const Pipeline& pipeline, const Drawn& drawn) const {
+    pushConstants(commands, pipeline,
+                  RasterPush{.size = ivec2(size()),
+                             .count = meshSizeOf(drawn).triangleCount,
+                             .firstId = drawn.firstId,
+                             .faceCount = std::uint32_t(drawn.diced.faceRates.size())});
+    vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+}
+
 /// Normals and colours of the triangles that samples name.
 void Renderer::Parts::resolve(VkCommandBuffer commands, const Frame& frame) {
     for (const Drawn& drawn : frame.drawn) {
         const Pipeline& pipeline =
-            computePipeline("raster_resolve.comp", nullptr, constantsOf(frame, drawn, DrawPass::surface)).get();
+            computePipeline("raster_resolve.comp", constantsOf(frame, drawn, DrawPass::surface)).get();
         bind(commands, pipeline, drawn.set);
-        const auto faces = std::uint32_t(drawn.diced.faceRates.size());
-        pushConstants(commands, pipeline,
-                      RasterPush{.size = ivec2(size()),
-                                 .count = meshSizeOf(drawn).triangleCount,
-                                 .firstId = drawn.firstId,
-                                 .faceCount = faces});
-        vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+        dispatchPixels(commands, pipeline, drawn);
+    }
+    barrier(commands);
+}
+
+/// What layers.comp reads, of the triangles that samples name.
+void Renderer::Parts::resolveLayers(VkCommandBuffer commands, const Frame& frame) {
+    for (const Drawn& drawn : frame.drawn) {
+        const Pipeline& pipeline = computePipeline("raster_layers.comp", constantsOf(frame, drawn, DrawPass::layers),
+                                                   {.isTriangles = drawn.isTriangles()})
+                                       .get();
+        bind(commands, pipeline, drawn.set);
+        dispatchPixels(commands, pipeline, drawn);
     }
     barrier(commands);
 }

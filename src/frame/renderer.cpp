@@ -41,6 +41,7 @@ void Renderer::resize(const RendererDesc& desc) {
     parts.images.reset();
     parts.buffers.reset();
     parts.layerTargets.reset();
+    parts.layerValues = {};
     parts.occlusion = {};
     parts.picture = {}; // ends before its successor is made, which takes its memory
     parts.picture = makePictureBuffer(parts.device, desc);
@@ -225,7 +226,7 @@ void Renderer::Parts::makeSets(Frame& frame, DrawPass pass) {
     const PipelineLayoutDesc layout = passLayout(device);
     for (Drawn& drawn : frame.drawn)
         drawn.set = makeBindingSet(device,
-                                   (frame.raster == Raster::compute && pass != DrawPass::layers
+                                   (frame.raster == Raster::compute
                                         ? rasterPipeline("raster_triangles.comp", frame, drawn, pass)
                                         : drawPipeline(frame, drawn, pass))
                                        .get(),

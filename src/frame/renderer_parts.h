@@ -50,6 +50,7 @@ struct Renderer::Parts {
     PhongCoefficients tablePhong;
     Buffer occlusion; ///< two floats per pixel; made when first needed
     std::optional<LayerTargets> layerTargets;
+    Buffer layerValues; ///< made when layers are first asked for
 
     [[nodiscard]] uvec2 size() const { return {desc.width, desc.height}; }
 
@@ -68,7 +69,8 @@ struct Renderer::Parts {
         Buffer draws;
         DrawPlan plan;
         DicedMesh diced;
-        TexelBuffer faceTriangles; ///< kBindFaceTriangles, where the technique wants faces
+        TexelBuffer faceTriangles; ///< kBindFaceTriangles, where the technique or layers want faces
+        TexelBuffer dicedFaces;    ///< of layers by the compute rasterizer: DicedMesh::faces
         std::uint32_t firstId = 0; ///< triangles of the instances before it
         BindingSet set;
 
@@ -149,9 +151,15 @@ struct Renderer::Parts {
     void startPipelines(const Frame& frame);
     void startGuessedPipelines(Frame& frame);
     std::vector<Stage> stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
-    /// `surface`: what the shader works on; null for one that works on pixels or a mesh.
-    const PendingPipeline& computePipeline(const char* file, const SurfaceModel* surface,
-                                           const ShaderConstants& constants);
+    /// Which of the variants of a shader: with heights by a function, for faces with three sides.
+    struct Variant {
+        const HeightFunction* function = nullptr;
+        bool isTriangles = false;
+    };
+    const PendingPipeline& computePipeline(const char* file, const ShaderConstants& constants, Variant variant);
+    const PendingPipeline& computePipeline(const char* file, const ShaderConstants& constants) {
+        return computePipeline(file, constants, {});
+    }
     const PendingPipeline& lightPipeline(const Frame& frame, bool addsLight = false);
     const PendingPipeline& occlusionPipeline(const Frame& frame);
 
@@ -171,7 +179,11 @@ struct Renderer::Parts {
     void useBuffers(Frame& frame);
     void makeMeshBuffers(const Frame& frame);
     void resolve(VkCommandBuffer commands, const Frame& frame);
+    void dispatchPixels(VkCommandBuffer commands, const Pipeline& pipeline, const Drawn& drawn) const;
+    void resolveLayers(VkCommandBuffer commands, const Frame& frame);
+    void useSampleTables(Frame& frame, bool writesColors);
     void submit(Frame& frame);
+    void submitRastered(const std::function<void(VkCommandBuffer)>& record);
     const PendingPipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
     /// Clears the target of a pass, and writes all instances to it.
     void rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target, uvec2 targetSize);
@@ -186,6 +198,8 @@ struct Renderer::Parts {
     std::vector<int> crossingsOfDraws(Frame& frame);
     std::vector<int> crossingsInCompute(Frame& frame);
     void renderLayers(Frame& frame, Picture& picture);
+    void useLayerImages(Frame& frame);
+    void useLayerBuffers(Frame& frame);
     void layerPass(VkCommandBuffer commands, const Frame& frame);
     void layerValuesPass(VkCommandBuffer commands, const Frame& frame);
     const PendingPipeline& layerPipeline(const Frame& frame, const Drawn& drawn);

@@ -73,10 +73,13 @@ LayerTargets makeLayerTargets(Device& device, const RendererDesc& desc) {
     t.normals = target("layer normals", kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.surfacePoints = target("layer surface points", kLayerFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
     t.depths = target("layer depths", kDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-    t.values = makeBuffer(device, {.name = "layers",
-                                   .bytes = std::uint64_t(width) * height * kLayerChannels * sizeof(float),
-                                   .memory = MemoryUse::readback});
     return t;
+}
+
+Buffer makeLayerBuffer(Device& device, const RendererDesc& desc) {
+    const std::uint64_t pixels = std::uint64_t(desc.width) * std::uint64_t(desc.height);
+    return makeBuffer(
+        device, {.name = "layers", .bytes = pixels * kLayerChannels * sizeof(float), .memory = MemoryUse::readback});
 }
 
 } // namespace relief

@@ -101,6 +101,14 @@ std::optional<std::string_view> unpackPipelineCache(const DriverIdentity& identi
     return data;
 }
 
+void writePipelineCache(const std::string& path, const DriverIdentity& identity, std::string_view data) {
+    try {
+        fs::create_directories(fs::path(path).parent_path());
+        writeFile(path, packPipelineCache(identity, data));
+    } catch (const std::exception&) { // a full disk, a folder of somebody else: then it is compiled again the next time
+    }
+}
+
 PipelineCache::PipelineCache(VkDevice device, VkPhysicalDevice physical)
     : device_(device), identity_(identityOf(physical)), path_(cachePathOf(identity_)) {
     if (path_.empty()) return;
@@ -121,14 +129,10 @@ void PipelineCache::save() const {
     // A driver that keeps nothing there, such as Mesa's for CPUs, whose own cache has all, always gives as many bytes.
     std::size_t size = sizeOf(device_, cache_);
     if (size <= firstBytes_ || size > kMostCacheBytes) return;
-    try {
-        std::string data(size, '\0');
-        if (vkGetPipelineCacheData(device_, cache_, &size, data.data()) != VK_SUCCESS) return;
-        data.resize(size);
-        fs::create_directories(fs::path(path_).parent_path());
-        writeFile(path_, packPipelineCache(identity_, data));
-    } catch (const std::exception&) { // a full disk, a folder of somebody else: then it is compiled again the next time
-    }
+    std::string data(size, '\0');
+    if (vkGetPipelineCacheData(device_, cache_, &size, data.data()) != VK_SUCCESS) return;
+    data.resize(size);
+    writePipelineCache(path_, identity_, data);
 }
 
 } // namespace relief

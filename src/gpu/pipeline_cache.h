@@ -22,6 +22,9 @@ std::string packPipelineCache(const DriverIdentity& identity, std::string_view d
 /// The data of such a file; empty where the file is cut, damaged, or of another device or driver.
 std::optional<std::string_view> unpackPipelineCache(const DriverIdentity& identity, std::string_view file);
 
+/// Writes such a file, whole or not at all, and its folder where there is none; does nothing where that fails.
+void writePipelineCache(const std::string& path, const DriverIdentity& identity, std::string_view data);
+
 /// The cache that pipelines of one device are made with. It lies in the folder that cacheFolder() names; without one,
 /// and where that cannot be read or written, pipelines are compiled each time, without a word.
 class PipelineCache {

@@ -72,6 +72,24 @@ std::string emptyCache(const Device& device) {
     return data;
 }
 
+// What a driver that keeps pipelines would be given back: CPU drivers keep none, so that the bytes are an empty
+// cache's.
+TEST(PipelineCaches, areReadAgainWhereTheyWereWritten) {
+    const CacheFolder cache;
+    const Device device;
+    const std::string folder = cache.folder / "new", data = emptyCache(device);
+    setenv("RELIEF_CACHE", folder.c_str(), 1);
+    const std::string path = folder + "/" + std::filesystem::path(cacheFile(device, cache.folder)).filename().string();
+    writePipelineCache(path, identityOf(device.physical()), data);
+    EXPECT_EQ(readFile(path, 1 << 20), packPipelineCache(identityOf(device.physical()), data));
+    EXPECT_EQ(PipelineCache(device.handle(), device.physical()).loadedBytes(), data.size());
+
+    // Where it cannot be written nothing happens, and what is there stays.
+    putFile(folder + "/file", "mine");
+    writePipelineCache(folder + "/file/pipelines.bin", identityOf(device.physical()), data);
+    EXPECT_EQ(readFile(folder + "/file", 1 << 20), "mine");
+}
+
 TEST(PipelineCaches, areReadFromTheirFileAndOnlyWhereItIsWhole) {
     const CacheFolder cache;
     const Device device;
