@@ -169,6 +169,10 @@ SurfaceRecords recordsOf(const Surface& surface) {
     patches.append(words);
     records.hasStraightCorners =
         std::ranges::any_of(surface.patches, [](const Patch& p) { return p.straightCorners != 0; });
+    for (const Patch& patch : surface.patches) {
+        records.patchTypes |= 1u << patch.type;
+        if (surface.hasTexCoords()) records.patchTypes |= 1u << patch.texType;
+    }
     records.firstEdge = texel();
     appendEdges(words, surface);
     records.firstCorner = texel();
