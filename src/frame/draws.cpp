@@ -51,6 +51,7 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
 DiceOptions Renderer::Parts::diceOptionsOf(const Frame& frame, const Drawn& drawn) const {
     const bool hasLayers = !frame.options.layers.empty();
     const DrawPass mostWanted = hasLayers ? DrawPass::layers : DrawPass::surface;
+    // Vertices hold what the pass that wants most reads: of layers that is more than of colors.
     const ShaderConstants constants = constantsOf(frame, drawn, mostWanted);
     return {.normal = frame.options.normal,
             .wantsTexCoords = constants.wantsTexCoords && constants.hasTexCoords,
@@ -66,6 +67,7 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
     drawn.bindings[kBindMeshIndices] = mesh.indices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
+    // Which face a triangle belongs to, for layers and the pictures that show faces or their rates.
     if (frame.technique.wantsFaces || !frame.options.layers.empty()) {
         std::vector<std::uint32_t> words;
         for (std::size_t face = 0; face < mesh.faceRates.size(); ++face)

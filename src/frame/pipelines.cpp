@@ -16,6 +16,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     const NormalKind normal = row.hasNormals ? frame.options.normal : NormalKind::limit;
     ShaderConstants c =
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
+    // What is not asked for is not compiled: passes without normals have neither pictures nor slopes.
     c.pass = row.constant;
     // Vertices of a diced mesh have their heights already; motion is evaluated again.
     if (drawn.surface != nullptr && (frame.path != Path::dice || pass == DrawPass::layers)) {
