@@ -35,15 +35,22 @@ protected:
         OnDevice::TearDown();
     }
 
+    struct Push {
+        VkDeviceAddress target;
+        std::uint32_t count = kCount, padding = 0;
+    };
+    static ComputeDesc describe(std::uint32_t way, std::uint32_t groupSize) {
+        return {.name = "choices",
+                .stage = {VK_SHADER_STAGE_COMPUTE_BIT, choices},
+                .constants = {way, groupSize},
+                .layout = {{}, sizeof(Push)}};
+    }
+
     static std::vector<std::uint32_t> run(std::uint32_t way, std::uint32_t groupSize) {
-        struct {
-            VkDeviceAddress target;
-            std::uint32_t count = kCount, padding = 0;
-        } push;
-        const Pipeline pipeline = makeCompute(device(), {.name = "choices",
-                                                         .stage = {VK_SHADER_STAGE_COMPUTE_BIT, choices},
-                                                         .constants = {way, groupSize},
-                                                         .layout = {{}, sizeof(push)}});
+        return run(makeCompute(device(), describe(way, groupSize)), groupSize);
+    }
+    static std::vector<std::uint32_t> run(const Pipeline& pipeline, std::uint32_t groupSize) {
+        Push push;
         const Buffer target =
             makeBuffer(device(), {.name = "chosen",
                                   .bytes = kCount * 4,
@@ -66,6 +73,20 @@ protected:
     }
     TemporaryFolder folder_;
 };
+
+// Several threads specialize, write to the cache and make pipelines while this one uses others.
+TEST_F(Specialized, doTheSameByOtherThreads) {
+    std::vector<PendingPipeline> pending;
+    for (std::uint32_t groupSize = 1; groupSize <= 8; ++groupSize)
+        for (std::uint32_t way = 0; way < 3; ++way) pending.push_back(startCompute(device(), describe(way, groupSize)));
+    for (std::uint32_t groupSize = 8; groupSize >= 1; --groupSize)
+        for (std::uint32_t way = 0; way < 3; ++way) {
+            const std::vector<std::uint32_t> words = run(pending[3 * (groupSize - 1) + way].get(), groupSize);
+            std::uint32_t others = 0;
+            for (std::uint32_t i = 0; i < kCount; ++i) others += words[i] != valueOf(way, groupSize, i);
+            EXPECT_EQ(others, 0u) << way << " " << groupSize;
+        }
+}
 
 TEST_F(Specialized, shadersDoWhatTheirConstantsChoose) {
     for (int time = 0; time < 2; ++time) // compiled, and from the cache
