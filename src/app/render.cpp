@@ -211,6 +211,8 @@ int compare(const RenderArgs& args) {
 }
 
 int render(const RenderArgs& args) {
+    // What libraries free goes back to the system at once: by itself malloc keeps up to 64 MB after large allocations.
+    mallopt(M_TRIM_THRESHOLD, 64 << 10);
     checkPicturePath(args.target, args.picture);
     checkOutput(args.target, listFiles(args.scene));
     if (!args.compared.empty()) return compare(args);
