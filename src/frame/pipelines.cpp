@@ -154,9 +154,9 @@ void Renderer::Parts::startPipelines(const Frame& frame) {
 
 namespace {
 
-/// About how many triangles a surface gets that is measured in pixels, per pixel that it covers and for segments of one
-/// pixel: on both sides, steep ones included (bigguy: 21).
-constexpr double kTrianglesPerPixel = 20;
+/// About how many triangles a surface gets that is measured in pixels and fills the picture, per pixel of the picture
+/// and for segments of one pixel (octopus: 2.9, bigguy: 5).
+constexpr double kTrianglesPerPixel = 3;
 
 } // namespace
 
@@ -179,10 +179,11 @@ void Renderer::Parts::startGuessedPipelines(Frame& frame) {
         triangles += o.rate ? 2.0 * double(drawn.surface->faces.size()) * *o.rate * *o.rate
                             : kTrianglesPerPixel * pixels / (o.edgePixels * o.edgePixels);
     }
-    // What tessellation and grids need depends on rates.
+    // What tessellation and grids need depends on rates; meshes are drawn alike.
     chooseRasters(frame, std::uint64_t(std::min(triangles, 1e9)));
     frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
-    if (frame.raster == Raster::compute) startPipelines(frame);
+    const bool areMeshes = std::ranges::all_of(frame.drawn, [](const Drawn& d) { return d.mesh != nullptr; });
+    if (areMeshes || frame.path == Path::dice) startPipelines(frame);
 }
 
 } // namespace relief
