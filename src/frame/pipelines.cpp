@@ -181,7 +181,6 @@ void Renderer::Parts::startGuessedPipelines(Frame& frame) {
     }
     // What tessellation and grids need depends on rates; meshes are drawn alike.
     chooseRasters(frame, std::uint64_t(std::min(triangles, 1e9)));
-    frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
     const bool areMeshes = std::ranges::all_of(frame.drawn, [](const Drawn& d) { return d.mesh != nullptr; });
     if (areMeshes || frame.path == Path::dice) startPipelines(frame);
 }

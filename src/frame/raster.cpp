@@ -82,6 +82,7 @@ void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) c
     };
     frame.raster = frame.stats.raster = choose(frame.inputs.view.toClip, size());
     if (frame.castsShadows()) frame.shadowRaster = choose(frame.inputs.light.toShadow, uvec2(desc.shadowSide));
+    frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
 }
 
 // --- dispatches ------------------------------------------------------------------------------------------
@@ -98,7 +99,6 @@ bool Renderer::Parts::needsIds(const Frame& frame) const {
 void Renderer::Parts::useBuffers(Frame& frame) {
     if (!buffers) buffers = makeSampleBuffers(device, desc);
     // Colors and instances of samples take memory only once a picture needs them.
-    frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
     makeMeshBuffers(frame);
 
     // What the passes write, and light.comp reads.
