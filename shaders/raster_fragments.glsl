@@ -1,5 +1,5 @@
 // What a sample of a triangle is made of: the varyings at any point of it, in place of what the fixed function hands to fragments.
-// Included after inputs.glsl and, for plain varyings, before kShow is used.
+// Included after inputs.glsl.
 #ifndef RELIEF_RASTER_FRAGMENTS_GLSL
 #define RELIEF_RASTER_FRAGMENTS_GLSL
 
