@@ -108,8 +108,10 @@ TEST_F(Drawn, negativeAnglesAreAngles) {
 // Light from the eye dims all three channels alike; blue is 150 in a light field and 112 in a dark one.
 TEST_F(Drawn, uvShowsTheFieldsOfTheUnitSquare) {
     for (const std::string raster : {"hardware", "compute"}) {
-        expectDone(relief({"render", cagePath("plane"), "-o", folder_ / "uv.png"},
-                          "--show uv --background 0,0,0 --elevation 90 --azimuth 0 --fov 1 --size 96,96 --path dice --raster " + raster));
+        expectDone(relief(
+            {"render", cagePath("plane"), "-o", folder_ / "uv.png"},
+            "--show uv --background 0,0,0 --elevation 90 --azimuth 0 --fov 1 --size 96,96 --path dice --raster " +
+                raster));
         const Image image = readImage(folder_ / "uv.png");
         std::set<std::pair<int, int>> fields;
         for (int y = 0; y < 96; ++y)
