@@ -92,14 +92,12 @@ void expectTight(const SurfaceModel& model, std::uint32_t& turn, const std::stri
     }
 }
 
-/// Three of the pens: the others are more of the same. In a quick run closed cages alone, for what evaluates straight
-/// corners takes long to compile.
+/// Three of the pens: the others are more of the same. In a quick run closed cages of quads alone: SwiftShader takes
+/// minutes to compile what evaluates straight corners of texture coordinates.
 std::vector<Pen> visitedPens() {
     if (isQuickRun())
         return {{Scheme::catmark,
-                 {{"cube", withScatteredIslands(cube())},
-                  {"torus", withScatteredIslands(torusWithSeams(6, 4))},
-                  {"prism", withScatteredIslands(nGonPrism(5))}}}};
+                 {{"cube", withScatteredIslands(cube())}, {"torus", withScatteredIslands(torusWithSeams(6, 4))}}}};
     std::vector<Pen> pens = zooPens();
     std::erase_if(pens, [](const Pen& pen) { return pen.scheme == Scheme::loop || pen.isSmall(); });
     pens.resize(3);
