@@ -170,6 +170,26 @@ HeightMap smoothTiles(bool isSwapped) {
     return makeTileSet(maps, places);
 }
 
+// Each component is looked up in its own words, in tiles of different sizes, and is 0 where there is no tile.
+TEST_F(ZooTiles, ofVectorsAreThoseOfTheReference) {
+    Cage cage = overTiles(cubeOfIslands());
+    for (vec2& st : cage.texCoords) st += vec2(1, -0.5f);
+    const Surface surface = buildSurface(cage, {.isolation = 2});
+    const HeightMap map = noiseVectorTiles(VectorSpace::object);
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions, .height = &map});
+    const ReferenceSurface reference(cage, {.isolation = 2});
+    const std::vector<SampleQuery> queries = gridQueries(surface, 13);
+    const std::vector<SampleResult> results = sampler().sample(model, queries);
+    std::size_t still = 0;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        const dvec2 st = reference.texture(int(queries[i].face), dvec2(queries[i].uv)).st;
+        const dvec3 expected = sampleVectors(*map.vectors, st).c;
+        EXPECT_LT(glm::length(expected - dvec3(results[i].c)), 1e-4) << st.x << ", " << st.y;
+        still += expected == dvec3(0) ? 1 : 0;
+    }
+    EXPECT_GT(still, 10u);
+}
+
 TEST_F(ZooTiles, areThoseOfTheReferenceAndNoOthers) {
     const Cage cage = overTiles(cubeOfIslands());
     const Surface surface = buildSurface(cage, {.isolation = 2});
