@@ -137,7 +137,8 @@ Examination examineMap(const std::string& path, const DoctorOptions& options, co
     Examination result{.path = path};
     if (options.vectors) result.vectorOrder = options.vectors->order, result.vectorFlip = options.vectors->flip;
     const bool isSet = findTilePattern(path).has_value();
-    const ImageInfo info = readImageInfo(isSet ? listTiles(path).front().path : path, options.height.limits);
+    const std::string file = isSet ? listTiles(path).front().path : path;
+    const ImageInfo info = readImageInfo(file, options.height.limits);
     result.map = loadMap(path, options, subject);
     result.bound = result.map.heightBound() * subject.unit;
 
@@ -161,7 +162,7 @@ Examination examineMap(const std::string& path, const DoctorOptions& options, co
     if (isSet && !options.vectors)
         examineTiles(path, options, subject, coverage, findings);
     else
-        examineFile(map, path, findings);
+        examineFile(map, file, findings);
     if (options.vectors) {
         examineVectors(map, coverage, findings);
     } else {

@@ -49,6 +49,20 @@ TEST_F(DoctorOnSets, examinesSetsOfTiles) {
     EXPECT_GT(drawFindings(examineSet("swapped"), patient.subject(), 128).texels.size(), 0u);
 }
 
+TEST_F(DoctorOnSets, examinesVectorsInTiles) {
+    Image image{.width = 32, .height = 32, .channels = 3, .texels = {}};
+    for (const float h : mapOf(32, 32, bumps).texels) image.texels.insert(image.texels.end(), {0, h, 0});
+    writeImage(folder / "v.1001.exr", image, SampleType::real);
+    const auto examined = [&](const std::string& order) {
+        return examineMap(
+            folder / "v.<UDIM>.exr",
+            {.height = {.scale = 1, .limits = {}}, .vectors = VectorOptions{.order = order, .limits = {}}},
+            torusPatient().subject());
+    };
+    EXPECT_TRUE(examined("xzy").isHealthy());
+    expectFound(FindingKind::axes, examined("xyz"), false);
+}
+
 TEST_F(DoctorOnSets, examinesMapsPerFace) {
     const Patient& torus = torusPatient();
     DoctorSubject subject = torus.subject();

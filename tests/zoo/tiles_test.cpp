@@ -92,15 +92,13 @@ void expectTight(const SurfaceModel& model, std::uint32_t& turn, const std::stri
     }
 }
 
-/// Three of the pens: the others are more of the same. In a quick run closed cages of quads alone: SwiftShader takes
-/// minutes to compile what evaluates straight corners of texture coordinates.
+/// Three of the pens: the others are more of the same. In a quick run one cage of regular patches alone: SwiftShader
+/// takes minutes to compile all others.
 std::vector<Pen> visitedPens() {
-    if (isQuickRun())
-        return {{Scheme::catmark,
-                 {{"cube", withScatteredIslands(cube())}, {"torus", withScatteredIslands(torusWithSeams(6, 4))}}}};
+    if (isQuickRun()) return {{Scheme::catmark, {{"torus", withScatteredIslands(torusWithSeams(6, 4))}}}};
     std::vector<Pen> pens = zooPens();
     std::erase_if(pens, [](const Pen& pen) { return pen.scheme == Scheme::loop || pen.isSmall(); });
-    pens.resize(3);
+    pens.resize(std::min<std::size_t>(pens.size(), 3));
     return pens;
 }
 
