@@ -55,6 +55,7 @@ RELIEF_CONSTANT uint kShowHeight = 2u;
 RELIEF_CONSTANT uint kShowRate = 3u;
 RELIEF_CONSTANT uint kShowFaces = 4u;
 RELIEF_CONSTANT uint kShowWireframe = 5u;
+RELIEF_CONSTANT uint kShowTexCoords = 6u;
 
 // How surfaces shade (--shading); the physical material has a second form.
 RELIEF_CONSTANT uint kShadingPhysical = 0u;    // a dielectric

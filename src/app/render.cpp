@@ -132,6 +132,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     // What the picture shows, and the model of it.
     if (!opened) opened = opening.get();
     Device& device = *opened;
+    checkShown(args.picture, args.scene.object.cage, loaded.object);
     checkFilter(args.picture, device, warn);
     const Coordinates coordinates = loaded.object.coordinates();
     RenderOptions options = toRenderOptions(args.picture, args.scene, loaded.object, device);

@@ -36,8 +36,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     } else if (row.hasNormals) {
         c.show = frame.technique.constant;
         c.hasAlbedoMap = pass == DrawPass::surface && frame.technique.wantsAlbedo && pictures.albedo && c.hasTexCoords;
-        c.wantsTexCoords =
-            c.hasAlbedoMap || (row.bendsNormals && (pictures.needTexCoords() || drawn.isBentByFunction()));
+        c.wantsTexCoords = c.hasAlbedoMap || (frame.technique.wantsTexCoords && c.hasTexCoords) ||
+                           (row.bendsNormals && (pictures.needTexCoords() || drawn.isBentByFunction()));
     }
     return c;
 }

@@ -4,9 +4,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include <sys/wait.h>
-
 #include "base/clock.h"
+#include "view/recent.h"
 
 namespace relief {
 namespace {
@@ -72,7 +71,7 @@ void Viewer::step() {
     advanceTime(now);
     takeLoaded();
     watchFiles(now);
-    checkExport();
+    watchProcesses();
     draw(now);
 }
 
@@ -86,7 +85,7 @@ double Viewer::secondsToWait(double now) const {
     if (pacing_.next(now) != Quality::none) seconds = 0;
     if (rest >= 0) seconds = std::min(seconds, rest);
     if (!played_.empty()) seconds = std::min(seconds, std::max(0.0, playedUntil_ - now));
-    if (loader_.isBusy() || otherLoader_.isBusy() || export_ > 0) seconds = std::min(seconds, 0.02);
+    if (loader_.isBusy() || otherLoader_.isBusy() || export_ || check_) seconds = std::min(seconds, 0.02);
     if (state_.isPlaying) seconds = std::min(seconds, 0.5 / desc_.look.scene.object.motion.cache.fps);
     return seconds;
 }
@@ -121,6 +120,8 @@ void Viewer::useScene(Prepared prepared) {
     if (scene_->isMoving())
         state_.look.frame = std::clamp(state_.look.frame, scene_->frames().front(), scene_->frames().back());
     window_.setTitle(titleOf(scene_->look()));
+    addRecent(scene_->look().scene.object.cage);
+    state_.recent = readRecent();
 }
 
 void Viewer::takeLoaded() {
@@ -157,14 +158,21 @@ void Viewer::watchFiles(double now) {
     if (watch_.hasChanged()) changeObject();
 }
 
-void Viewer::checkExport() {
-    if (export_ <= 0) return;
-    int status = 0;
-    if (waitpid(export_, &status, WNOHANG) != export_) return;
-    export_ = -1;
-    const bool isWritten = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    state_.notice = isWritten ? "turntable.mp4 is written" : "turntable.mp4 was not written";
-    uiFrames_ = kFramesAfterEvent;
+/// What was started on the side and has ended.
+void Viewer::watchProcesses() {
+    if (const std::optional<int> code = export_ ? export_->poll() : std::nullopt) {
+        export_.reset();
+        state_.notice = *code == 0 ? "the turntable is written" : "the turntable was not written";
+        uiFrames_ = kFramesAfterEvent;
+    }
+    if (const std::optional<int> code = check_ ? check_->poll() : std::nullopt) {
+        const std::string text = check_->output();
+        check_.reset();
+        state_.notice.clear();
+        state_.certificate = text;
+        if (text.empty()) state_.error = fmt::format("relief check ended with exit code {} and no certificate", *code);
+        uiFrames_ = kFramesAfterEvent;
+    }
 }
 
 // --- pictures ------------------------------------------------------------------------------------------------------
@@ -284,6 +292,7 @@ void Viewer::upload(const Codes& codes) {
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {canvasPart_.width, canvasPart_.height, 1};
     device_->submitAndWait([&](VkCommandBuffer commands) {
+        barrier(commands); // a frame that is still drawn reads the picture of before
         vkCmdCopyBufferToImage(commands, staging_.handle.get(), canvas_.handle.get(), VK_IMAGE_LAYOUT_GENERAL, 1,
                                &region);
         barrier(commands);
