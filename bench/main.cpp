@@ -187,8 +187,16 @@ HeightMap cutIntoTiles(const HeightMap& map) {
     return makeTileSet(tiles, places);
 }
 
-/// Compares the three ways to look heights up, at a rate that divides the nodes of a map per face: the same heights,
-/// and tiles of as many bytes as the one map.
+/// The heights of a map along the normal, and half of them along T and B.
+HeightMap makeVectors(const HeightMap& heights) {
+    std::array<HeightMap, 3> components{heights, heights, heights};
+    scaleHeights(components[0], 0.5), scaleHeights(components[1], 0.5);
+    return joinComponents(components, VectorSpace::tangent, MapFormat::real);
+}
+
+/// Compares the ways to look heights up, at a rate that divides the nodes of a map per face: the same heights, and
+/// tiles of as many bytes as the one map. Beside them vectors, and the surface without any map: no way of lookup is
+/// faster than none.
 int benchMaps() {
     constexpr int kLog = 5; // of the segments of a face, and of the rate
     TestSurface test;
@@ -200,26 +208,31 @@ int benchMaps() {
     for (vec2& st : tiled.texCoords) st *= 2.0f;
     const Surface surface = buildSurface(test.cage, {.isolation = 3}),
                   tiledSurface = buildSurface(tiled, {.isolation = 3});
-    const std::vector<ivec2> segments(surface.faces.size(), ivec2(kLog));
-    const HeightMap faces = makeFaceMap(surface, segments, [&](int face, const dvec2& uv) {
-        return sampleHeight(test.map, test.reference.texture(face, uv).st).h;
-    });
-    const HeightMap tiles = cutIntoTiles(test.map);
+    const HeightMap faces = toFaceMap(test.map, {}, surface, test.reference, 1 << kLog);
+    const HeightMap tiles = cutIntoTiles(test.map), vectors = makeVectors(test.map), vectorTiles = makeVectors(tiles);
     Device device;
-    const std::vector<vec3>& positions = test.cage.positions;
-    const SurfaceModel byTexture(device, {.surface = &surface, .cagePositions = positions, .height = &test.map});
-    const SurfaceModel byTile(device, {.surface = &tiledSurface, .cagePositions = positions, .height = &tiles});
-    const SurfaceModel byFace(device, {.surface = &surface, .cagePositions = positions, .height = &faces});
+    const auto modelOf = [&](const Surface& of, const HeightMap* map) {
+        return SurfaceModel(device, {.surface = &of, .cagePositions = test.cage.positions, .height = map});
+    };
+    const SurfaceModel byTexture = modelOf(surface, &test.map), byTile = modelOf(tiledSurface, &tiles),
+                       byFace = modelOf(surface, &faces), byVector = modelOf(surface, &vectors),
+                       byVectorTile = modelOf(tiledSurface, &vectorTiles), bare = modelOf(surface, nullptr);
     EdgeRater rater(device);
     test.options.rate = 1 << kLog;
     const EdgeRates rates = rater.rates(byFace, test.options, {});
+
+    // In turns, and the first of each is the reference of the speeds.
     TimedDicing texture(device, byTexture, rates, NormalKind::full, "one map over texture coordinates"),
         tile(device, byTile, rates, NormalKind::full, "four tiles of the same bytes"),
-        face(device, byFace, rates, NormalKind::full, "a map per face, on its nodes");
+        face(device, byFace, rates, NormalKind::full, "a map per face, on its nodes"),
+        none(device, bare, rates, NormalKind::limit, "no map, limit normals"),
+        vector(device, byVector, rates, NormalKind::full, "vectors over texture coordinates"),
+        vectorTile(device, byVectorTile, rates, NormalKind::full, "four tiles of vectors");
     for (int round = 0; round <= kRounds; ++round)
-        for (TimedDicing* dicing : {&texture, &tile, &face}) dicing->run();
+        for (TimedDicing* dicing : {&texture, &tile, &face, &none, &vector, &vectorTile}) dicing->run();
     std::cout << fmt::format("maps: {} at rate {} on {}\n", test.path, 1 << kLog, device.traits().name);
-    printTimings({tile.vertices(), face.vertices()}, {texture.vertices()});
+    printTimings({tile.vertices(), face.vertices(), none.vertices()}, {texture.vertices()});
+    printTimings({vectorTile.vertices()}, {vector.vertices()});
     return 0;
 }
 

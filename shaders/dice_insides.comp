@@ -9,6 +9,9 @@ layout(local_size_x_id = kIdGroupSize) in;
 #ifdef RELIEF_TRIANGLES
 #include "displaced.glsl"
 #else
+#ifndef RELIEF_STORAGE_TABLES
+#define RELIEF_ONE_FACE
+#endif
 #include "dice_tile.glsl"
 #endif
 #include "dice_store.glsl"
@@ -116,6 +119,7 @@ void main() {
     if (kIsCommon) patchPoints.surface.type = patchPoints.texture.type = kPatchRegular;
     loadTile(patchPoints);
 #ifndef RELIEF_STORAGE_TABLES
+    if (kReadsNodes) nodesOfFace = nodeLevel(partAt(MapPlace(tile.face, vec2(0), vec2(0))), faceLevel(tile.face, vec2(0)));
     if (kIsCommon) {
         diceColumns(tile, patchPoints);
         return;

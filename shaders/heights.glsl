@@ -76,20 +76,42 @@ HeightSample sampleLevel(MapPart part, uint number) {
 }
 
 #ifndef RELIEF_STORAGE_TABLES
-// What sampleLevel() gives at a node: the node itself and the four beside it.
-HeightSample sampleNode(MapPart part, uint number) {
-    int first = firstOfLevel(part, number);
+// A level of a face's nodes: what all lookups in it share. CPU drivers load it lane by lane where it is read in a loop.
+struct NodeLevel {
+    int first;        // word where the level begins
+    ivec2 segments;
+    float scale, mid;
+};
+
+NodeLevel nodeLevel(MapPart part, float level) {
+    uint number = kHasMips ? min(uint(level + 0.5), lastLevel(part)) : 0u;
     ivec2 segments = ivec2(1) << max(part.size - int(number), 0);
-    ivec2 node = ivec2(part.at * vec2(segments) + 0.5) + kFaceApron, stored = segments + 1 + 2 * kFaceApron;
-    int blockRow = ((stored.x + 3) >> 2) * 16;
-    ivec3 c = node.x + ivec3(-1, 0, 1), r = node.y + ivec3(-1, 0, 1);
-    bool isInBlocks = kMapFormat == kMapBc4; // sizes are odd
-    if (isInBlocks) c = (c >> 2) * 16 + (c & 3), r = (r >> 2) * blockRow + (r & 3) * 4;
-    else r *= stored.x;
-    float scale = inputs.model.maps[part.map].scale;
-    precise float h = scale * (texel(first, c.y + r.y) - inputs.model.maps[part.map].mid);
-    vec2 difference = vec2(texel(first, c.z + r.y) - texel(first, c.x + r.y), texel(first, c.y + r.z) - texel(first, c.y + r.x));
-    return HeightSample(h, 0.5 * scale * vec2(segments) * difference);
+    return NodeLevel(firstOfLevel(part, number), segments, inputs.model.maps[part.map].scale, inputs.model.maps[part.map].mid);
+}
+
+// What sampleLevel() gives at a node: the node itself and the four beside it.
+HeightSample sampleNode(NodeLevel level, vec2 at) {
+    ivec2 node = ivec2(at * vec2(level.segments) + 0.5) + kFaceApron, stored = level.segments + 1 + 2 * kFaceApron;
+    float left, middle, right, low, high;
+    if (kMapFormat == kMapReal) {
+        // Floats come in pairs: two of them hold the three nodes of the row.
+        int i = level.first + node.y * stored.x + node.x;
+        uvec2 before = wordsAt(uint((i - 1) >> 1)), behind = wordsAt(uint((i + 1) >> 1));
+        bool isFirst = (i & 1) == 0; // of its pair
+        left = uintBitsToFloat(isFirst ? before.y : before.x);
+        middle = uintBitsToFloat(isFirst ? behind.x : before.y);
+        right = uintBitsToFloat(isFirst ? behind.y : behind.x);
+        low = texel(0, i - stored.x), high = texel(0, i + stored.x);
+    } else {
+        ivec3 c = node.x + ivec3(-1, 0, 1), r = node.y + ivec3(-1, 0, 1);
+        bool isInBlocks = kMapFormat == kMapBc4; // sizes are odd
+        if (isInBlocks) c = (c >> 2) * 16 + (c & 3), r = (r >> 2) * (((stored.x + 3) >> 2) * 16) + (r & 3) * 4;
+        else r *= stored.x;
+        left = texel(level.first, c.x + r.y), middle = texel(level.first, c.y + r.y), right = texel(level.first, c.z + r.y);
+        low = texel(level.first, c.y + r.x), high = texel(level.first, c.y + r.z);
+    }
+    precise float h = level.scale * (middle - level.mid);
+    return HeightSample(h, 0.5 * level.scale * vec2(level.segments) * vec2(right - left, high - low));
 }
 #endif
 

@@ -77,7 +77,8 @@ uint lastLevel(MapPart part) {
 // The word where a level begins.
 int firstOfLevel(MapPart part, uint number) {
     if (kMapAddressing == kMapOfTexture) return int(inputs.model.maps[part.map].firstWords[number]);
-    return number == 0u ? part.first : int(heightWord(part.first - int(number)));
+    int first = kVectorSpace == kVectorNone ? 0 : int(inputs.model.maps[part.map].firstWords[0]); // of the set's words
+    return first + (number == 0u ? part.first : int(heightWord(first + part.first - int(number))));
 }
 
 // The columns or rows first - 1 to first + 2 of a map level of that size.

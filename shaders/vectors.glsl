@@ -18,16 +18,23 @@ struct Displacement {
 };
 
 // The lookups of a map of heights, or of three components, at a point. One lookup in a loop, for compilers unfold every one.
-// kReadsNodes: all samples lie on nodes of one level.
+// kReadsNodes: all samples lie on nodes of one level. RELIEF_ONE_FACE: all lookups are in that of one face.
+#ifdef RELIEF_ONE_FACE
+NodeLevel nodesOfFace;
+#endif
 Displacement lookUp(MapPlace place, float level) {
     Displacement d;
-    MapPart part = partAt(place);
 #ifndef RELIEF_STORAGE_TABLES
     if (kReadsNodes) {
-        d.height = sampleNode(part, kHasMips ? min(uint(level + 0.5), lastLevel(part)) : 0u);
+#ifdef RELIEF_ONE_FACE
+        d.height = sampleNode(nodesOfFace, place.uv);
+#else
+        d.height = sampleNode(nodeLevel(partAt(place), level), place.uv);
+#endif
         return d;
     }
 #endif
+    MapPart part = partAt(place);
     if (kVectorSpace != kVectorNone) d.vector = VectorSample(vec3(0), mat2x3(0.0));
     for (uint k = 0u; k < (kVectorSpace == kVectorNone ? 1u : 3u); ++k) {
         if (kVectorSpace != kVectorNone) part.map = k;
@@ -39,7 +46,10 @@ Displacement lookUp(MapPlace place, float level) {
         d.vector.dc[0] += one.gradient.x * axis;
         d.vector.dc[1] += one.gradient.y * axis;
     }
-    if (kMapAddressing == kMapOfTiles && !part.isThere) d.height = HeightSample(0.0, vec2(0));
+    if (kMapAddressing == kMapOfTiles && !part.isThere) {
+        d.height = HeightSample(0.0, vec2(0));
+        if (kVectorSpace != kVectorNone) d.vector = VectorSample(vec3(0), mat2x3(0.0));
+    }
     return d;
 }
 

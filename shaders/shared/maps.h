@@ -61,7 +61,7 @@ struct MapRecord {
     float scale;
     uint repeats; // 1 repeat, 0 clamp
     uint levelCount;
-    uint firstWords[kMostMapLevels]; // where each level's words begin; not of sets
+    uint firstWords[kMostMapLevels]; // where each level's words begin; of sets the first is that of all its words
     ivec2 firstTile;                 // sets of unit squares: (s,t) of the first one of the grid
     ivec2 tileCount;                 // and how many there are along s and t
 };

@@ -37,6 +37,8 @@ json toJson(const Examination& examination, double unit) {
         settings[setting.renderer][setting.name] = setting.value;
     for (const Finding& finding : examination.findings) findings.push_back(toJson(finding));
     return {{"map", examination.path},
+            {"tiles", examination.map.addressing == Addressing::tiles ? examination.map.tiles.size() : 0},
+            {"faces", examination.map.addressing == Addressing::faces ? examination.map.tiles.size() : 0},
             {"width", examination.map.width},
             {"height", examination.map.height},
             {"mid", examination.map.mid},
@@ -63,8 +65,12 @@ void checkUsage(const DoctorArgs& args) {
         fail(Failure::usage, "-o {}: a picture is of one map, and {} are named", args.picture, args.maps.size());
     const std::string extension = lowerExtension(args.picture);
     if (extension != ".png") fail(Failure::usage, "{}: findings are drawn into a .png", args.picture);
-    std::vector<std::string> inputs = args.maps;
-    inputs.push_back(args.object.cage);
+    std::vector<std::string> inputs{args.object.cage};
+    for (const std::string& map : args.maps) {
+        inputs.push_back(map);
+        if (!findTilePattern(map)) continue;
+        for (const TileFile& tile : listTiles(map)) inputs.push_back(tile.path);
+    }
     checkOutput(args.picture, inputs);
 }
 
@@ -85,12 +91,13 @@ LoadedObject loadSubject(const DoctorArgs& args) {
 
 int examine(const DoctorArgs& args) {
     checkUsage(args);
-    for (const std::string& map : args.maps) readImageInfo(map); // before anything takes long
+    for (const std::string& map : args.maps) // before anything takes long
+        readImageInfo(findTilePattern(map) ? listTiles(map).front().path : map);
     const LoadedObject object = loadSubject(args);
     const ReferenceSurface reference(object.cage, object.options);
     const SurfaceLayout layout = makeLayout(object.surface, reference);
     const double unit = object.coordinates().unit;
-    const DoctorSubject subject{&object.surface, &reference, &layout, unit};
+    const DoctorSubject subject{&object.surface, &reference, &layout, unit, hashTopology(object.cage)};
 
     // All maps are examined before anything is printed: a map that cannot be read is one line.
     const HeightDesc& height = args.object.height;
@@ -134,7 +141,10 @@ std::string describeKinds() {
 Run addDoctor(CLI::App& app) {
     auto args = std::make_shared<DoctorArgs>();
     app.add_option("cage", args->object.cage, "control cage: .obj .gltf .glb")->required()->option_text("CAGE");
-    app.add_option("maps", args->maps, "height maps, or with --vector-space vector maps: .exr .tif .png .hdr .jpg")
+    app.add_option("maps", args->maps,
+                   "height maps, or with --vector-space vector maps: .exr .tif .png .hdr .jpg; sets of tiles (<UDIM>), "
+                   "maps per "
+                   "face")
         ->required()
         ->option_text("MAP...");
     addSurface(app, args->object);
@@ -159,6 +169,7 @@ Run addDoctor(CLI::App& app) {
                "examples:\n"
                "  relief doctor cage.obj heights.exr --scale 0.2\n"
                "  relief doctor cage.obj heights.tif --scale 0.2 --mid 0.5 -o findings.png\n"
+               "  relief doctor cage.obj 'skin.<UDIM>.exr' --scale 0.2 -o findings.png\n"
                "  relief doctor cage.obj vectors.exr --vector-space tangent --vector-preset mudbox");
     return [args] { return examine(*args); };
 }

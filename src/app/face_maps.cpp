@@ -24,38 +24,11 @@ struct ConversionArgs {
     bool isJson = false, isQuiet = false;
 };
 
-/// Segments of a face that are as fine as the texels of a map under it, as powers of two.
-ivec2 chooseSegments(const ReferenceSurface& reference, int face, const ivec2& texels) {
-    constexpr int kSteps = 8;
-    dvec2 lengths(0); // along u and v in texels, the longest of three lines
-    for (int line = 0; line <= 2; ++line)
-        for (int axis = 0; axis < 2; ++axis) {
-            double length = 0;
-            dvec2 last(0);
-            for (int k = 0; k <= kSteps; ++k) {
-                const double x = double(k) / kSteps, y = 0.5 * line;
-                const dvec2 at = reference.texture(face, axis == 0 ? dvec2(x, y) : dvec2(y, x)).st * dvec2(texels);
-                if (k > 0) length += glm::length(at - last);
-                last = at;
-            }
-            lengths[axis] = std::max(lengths[axis], length);
-        }
-    const double most = std::log2(kMostSegments);
-    return ivec2(glm::clamp(glm::ceil(glm::log2(glm::max(lengths, 1.0)) - 1e-6), 0.0, most));
-}
-
 HeightMap makeFaces(const LoadedObject& object, const std::optional<int>& asked) {
     const ReferenceSurface reference(object.cage, object.options);
-    const HeightMap& map = *object.height;
-    std::vector<ivec2> segments;
-    for (int face = 0; face < int(object.surface.faces.size()); ++face)
-        segments.push_back(reference.isHole(face) ? ivec2(0)
-                           : asked                ? ivec2(int(std::lround(std::log2(*asked))))
-                                                  : chooseSegments(reference, face, {map.width, map.height}));
-    const double unit = object.coordinates().unit;
-    HeightMap faces = makeFaceMap(object.surface, segments, [&](int face, const dvec2& uv) {
-        return unit * sampleHeight(map, {.face = face, .uv = uv, .st = reference.texture(face, uv).st}).h;
-    });
+    HeightMap map = *object.height;
+    scaleHeights(map, object.coordinates().unit);
+    HeightMap faces = toFaceMap(map, {}, object.surface, reference, asked);
     faces.topology = hashTopology(object.cage);
     return faces;
 }

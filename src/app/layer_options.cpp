@@ -146,7 +146,12 @@ void addPlacement(CLI::App& app, ObjectDesc& object) {
                             "what is added to texture coordinates after that (default: 0,0)")
                ->check(numberIn(-kMostRepeats, kMostRepeats)));
     listIn("maps", "N",
-           app.add_option("--uv-set", object.uvSet, "which texture coordinates of a glTF file: TEXCOORD_N (default: 0)")
+           app.add_option("--uv-set", object.uvSet,
+                          "which texture coordinates of a glTF file: N or its name, TEXCOORD_N (default: 0)")
+               ->transform([](std::string word) {
+                   constexpr std::string_view kName = "TEXCOORD_";
+                   return word.starts_with(kName) ? word.substr(kName.size()) : word;
+               })
                ->check(CLI::Range(0, 15)));
 }
 

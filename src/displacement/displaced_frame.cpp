@@ -148,7 +148,8 @@ DisplacedNormals computeDisplacedNormals(const LimitFrame& frame, double h, cons
 DisplacedFrame displacedFrame(const ReferenceSurface& surface, const HeightMap* map, int face, const dvec2& uv,
                               const ReferenceSurface* rest) {
     if (map != nullptr && map->vectors) {
-        const VectorSample sample = sampleVectors(*map->vectors, surface.texture(face, uv).st);
+        const MapPlace place{.face = face, .uv = uv, .st = surface.texture(face, uv).st};
+        const VectorSample sample = sampleVectors(*map->vectors, place);
         return displacedByVectors({surface, map->vectors->space, rest}, sample, face, uv);
     }
     // The limit surface, and the height by the map alone.

@@ -40,7 +40,7 @@ std::optional<VectorSpace> findSpace(std::span<const MapLayer> layers) {
 }
 
 /// The addressing of the sum. Throws for layers that have no sum.
-Addressing chooseAddressing(std::span<const MapLayer> layers, bool hasVectors) {
+Addressing chooseAddressing(std::span<const MapLayer> layers) {
     const auto of = [&](Addressing addressing) {
         std::string name;
         eachMap(layers, [&](const std::string& each, const HeightMap& map, const MapPlacement& placement) {
@@ -58,8 +58,6 @@ Addressing chooseAddressing(std::span<const MapLayer> layers, bool hasVectors) {
              "{} and {}: a map per face cannot be added to maps over texture coordinates; relief map makes one kind of "
              "the other",
              faces, tiles.empty() ? texture : tiles);
-    if (!tiles.empty() && hasVectors)
-        fail(Failure::usage, "{}: a set of tiles cannot be added to vectors; use a single map", tiles);
     return !faces.empty() ? Addressing::faces : !tiles.empty() ? Addressing::tiles : Addressing::texture;
 }
 
@@ -140,17 +138,22 @@ ivec2 finestSize(std::span<const MapLayer> layers, const ivec2& place, double co
     return {finest};
 }
 
-HeightMap addTiles(std::span<const MapLayer> layers, Wrap wrap) {
-    // All unit squares that a set has a tile of; masks make none.
+/// All unit squares that a set has a tile of; masks make none.
+std::vector<ivec2> listPlaces(std::span<const MapLayer> layers) {
     std::vector<ivec2> places;
     for (const MapLayer& layer : layers)
         for (const MapTile& tile : layer.map.tiles)
             if (std::ranges::find(places, tile.place) == places.end()) places.push_back(tile.place);
     if (places.empty()) fail(Failure::usage, "{}: a mask of tiles needs a map of tiles", layers.front().name);
+    return places;
+}
+
+/// One component of the sum, as a set of tiles.
+HeightMap addTiles(std::span<const MapLayer> layers, int component, std::span<const ivec2> places) {
     std::vector<HeightMap> maps;
     for (const ivec2& place : places) {
         const ivec2 size = finestSize(layers, place, double(places.size()));
-        maps.push_back(makeHeightMap(size.x, size.y, addOver(layers, 2, place, size), 0, 1, wrap));
+        maps.push_back(makeHeightMap(size.x, size.y, addOver(layers, component, place, size), 0, 1, Wrap::clamp));
     }
     return makeTileSet(maps, places);
 }
@@ -190,15 +193,16 @@ HeightMap addFaces(std::span<const MapLayer> layers) {
     return sum;
 }
 
-HeightMap addVectors(std::span<const MapLayer> layers, const VectorOptions& options) {
-    const ivec2 size = finestSize(layers, {}, 3);
-    Image all{.width = size.x, .height = size.y, .channels = 3, .texels = {}};
-    all.texels.resize(std::size_t(size.x) * std::size_t(size.y) * 3);
-    for (int k = 0; k < 3; ++k) {
-        const std::vector<float> component = addOver(layers, k, {}, size);
-        for (std::size_t i = 0; i < component.size(); ++i) all.texels[3 * i + std::size_t(k)] = component[i];
-    }
-    return makeVectorMap(all, options);
+/// Vectors over one unit square, or over those of sets.
+HeightMap addVectors(std::span<const MapLayer> layers, bool isOfTiles, VectorSpace space, Wrap wrap, MapFormat format) {
+    std::array<HeightMap, 3> components;
+    const std::vector<ivec2> places = isOfTiles ? listPlaces(layers) : std::vector<ivec2>();
+    const ivec2 size = isOfTiles ? ivec2(0) : finestSize(layers, {}, 3);
+    for (int k = 0; k < 3; ++k)
+        components[std::size_t(k)] = isOfTiles
+                                         ? addTiles(layers, k, places)
+                                         : makeHeightMap(size.x, size.y, addOver(layers, k, {}, size), 0, 1, wrap);
+    return joinComponents(components, space, format);
 }
 
 } // namespace
@@ -211,15 +215,12 @@ bool repeatsWhole(std::span<const MapLayer> layers) {
 EncodedMap addLayers(std::span<const MapLayer> layers, Wrap wrap, MapFormat format) {
     RELIEF_CHECK(!layers.empty());
     const std::optional<VectorSpace> space = findSpace(layers);
-    switch (chooseAddressing(layers, space.has_value())) {
-    case Addressing::faces: return {addFaces(layers), {.format = format, .blocks = {}}}; // encoded once it is fitted
-    case Addressing::tiles: return encode(addTiles(layers, wrap), format);
-    default: break;
-    }
-    if (space)
-        return {
-            addVectors(layers, {.space = *space, .mid = 0, .scale = 1, .wrap = wrap, .format = format, .limits = {}}),
-            {}};
+    const Addressing addressing = chooseAddressing(layers);
+    if (addressing == Addressing::faces)
+        return {addFaces(layers), {.format = format, .blocks = {}}}; // encoded once it is fitted
+    const bool isOfTiles = addressing == Addressing::tiles;
+    if (space) return {addVectors(layers, isOfTiles, *space, wrap, format), {}};
+    if (isOfTiles) return encode(addTiles(layers, 2, listPlaces(layers)), format);
     const ivec2 size = finestSize(layers, {}, 1);
     return encode(makeHeightMap(size.x, size.y, addOver(layers, 2, {}, size), 0, 1, wrap), format);
 }

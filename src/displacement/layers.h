@@ -14,6 +14,13 @@ struct MapPlacement {
     [[nodiscard]] bool isIdentity() const { return repeat == dvec2(1) && offset == dvec2(0); }
 };
 
+/// A map per face that has the heights of another map of the same surface, in cage units, at its nodes. `reference` is
+/// the surface's; the map is looked up at its placement where it is over texture coordinates. `segments`: along each
+/// side of each face, a power of two; without it as many as the texels under the face are, 4096 at most.
+/// Throws as linkFaces does.
+HeightMap toFaceMap(const HeightMap& map, const MapPlacement& placement, const Surface& surface,
+                    const ReferenceSurface& reference, std::optional<int> segments = {});
+
 /// One of the maps that are added.
 struct MapLayer {
     std::string name;              ///< of its file, for messages
@@ -36,8 +43,8 @@ bool repeatsWhole(std::span<const MapLayer> layers);
 /// Maps per face are added node by node of the finer one, which is exact but for what lies beside an edge where a map
 /// changes its size: there the edge is the sum of its owner's.
 ///
-/// Throws Failure::usage for what cannot be added: maps per face and others, vectors of object space and of tangent
-/// space, vectors and sets of tiles, a set or a map per face that repeats; Failure::input for maps per face of
+/// Throws Failure::usage for what cannot be added: maps per face and others (toFaceMap() makes those of these), vectors
+/// of object space and of tangent space, a set or a map per face that repeats; Failure::input for maps per face of
 /// different cages and a sum too large for memory.
 EncodedMap addLayers(std::span<const MapLayer> layers, Wrap wrap, MapFormat format);
 

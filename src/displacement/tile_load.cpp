@@ -22,18 +22,22 @@ std::uint64_t availableBytes() {
     return 1024 * kilobytes;
 }
 
-void checkSetMemory(const std::string& path, const HeightMap& set, MapFormat format) {
+} // namespace
+
+void checkSetMemory(const std::string& path, const HeightMap& set, MapFormat format, int components) {
     std::uint64_t texels = 0;
     for (const MapTile& tile : set.tiles) {
         const ivec2 size = tile.size + 2 * kTileApron;
         texels += std::uint64_t(size.x) * std::uint64_t(size.y);
     }
-    // The texels, once more while their aprons are filled, and the words of the device.
-    const std::uint64_t bytes = 2 * sizeof(float) * texels + mapBytes(format, set), available = availableBytes();
+    const std::uint64_t bytes = std::uint64_t(components) * (2 * sizeof(float) * texels + mapBytes(format, set));
+    const std::uint64_t available = availableBytes();
     if (available > 0 && bytes > available)
         fail(Failure::device, "{}: its {} tiles take {} of memory; {} are available: use smaller tiles", path,
              set.tiles.size(), humanBytes(bytes), humanBytes(available));
 }
+
+namespace {
 
 /// Files of a set have the same channels, unless one is named.
 void checkChannels(const std::vector<TileFile>& files, const std::vector<ImageInfo>& infos,
@@ -52,6 +56,11 @@ void warnAboutSet(const std::vector<TileFile>& files, const std::vector<ImageInf
         warnAbout(infos[i], files[i].path, options, [&](const std::string& line) {
             if (said.insert(line.substr(files[i].path.size())).second) warn(line);
         });
+    // Three channels are a grey picture; two and four are something else beside the heights.
+    const int channels = infos.front().channels;
+    if (options.channel.empty() && (channels == 2 || channels > 3) && layersOf(infos.front()).size() < 2)
+        warn(fmt::format("{}: there are {} channels; {} is taken as the height: choose with --channel NAME",
+                         files.front().path, channels, infos.front().channelNames.front()));
 }
 
 } // namespace

@@ -19,6 +19,10 @@ void roundTiles(HeightMap& set, const MapEncoding& encoding);
 
 // --- loading ------------------------------------------------------------------------------------------------------
 
+/// Throws Failure::device for a set of so many components whose texels, once more while aprons are filled, and words of
+/// the device take more memory than there is. Of the set only the places and sizes of tiles are read.
+void checkSetMemory(const std::string& path, const HeightMap& set, MapFormat format, int components = 1);
+
 /// What loadHeightMap() does with one file.
 EncodedMap loadTileSet(const std::string& path, const HeightOptions& options, const Warn& warn);
 EncodedMap loadFaceMap(const std::string& path, const HeightOptions& options, const ImageInfo& info);

@@ -17,13 +17,14 @@ inline constexpr Word<VectorSpace> kVectorSpaces[] = {
 enum class VectorPreset { none, zbrush, mudbox, blender };
 inline constexpr Word<VectorPreset> kVectorPresets[] = {
     {"none", VectorPreset::none, "red is x, green y and blue z"},
-    {"zbrush", VectorPreset::zbrush, "ZBrush with FlipAndSwitch 1: red is x, green y and blue z"},
+    {"zbrush", VectorPreset::zbrush,
+     "ZBrush with FlipAndSwitch 1: red is x, green y and blue z (25, that of Maya and Arnold, is mudbox)"},
     {"mudbox", VectorPreset::mudbox, "Mudbox, Maya and Arnold: of tangent space, green is the normal and blue along t"},
     {"blender", VectorPreset::blender,
      "Blender: of tangent space, green is the normal and blue along t; of object space, Z is up"},
 };
 
-/// The three components of the displacement, one scalar map each, of one size.
+/// The three components of the displacement, one scalar map each: of one size, or sets of the same tiles.
 struct VectorMap {
     std::array<HeightMap, 3> channels;    ///< along T, B and N, or x, y and z
     std::array<MapEncoding, 3> encodings; ///< how the device stores them: one format
@@ -48,8 +49,14 @@ void applyPreset(VectorOptions& options, VectorPreset preset);
 /// Throws as makeHeightMap does, and Failure::usage for an order that is no permutation of "xyz".
 HeightMap makeVectorMap(const Image& components, const VectorOptions& options);
 
-/// Reads three channels of an image as raw data. Warns as loadHeightMap does.
-/// Throws Failure::input for fewer than three channels and for texels that are not finite, and as readImage does.
+/// Makes a map of three components in cage units, which all are single maps of one size or sets of the same tiles.
+/// The device stores them in `format`.
+HeightMap joinComponents(const std::array<HeightMap, 3>& components, VectorSpace space, MapFormat format);
+
+/// Reads three channels of an image as raw data; of all files of a set where `path` is a TilePattern. Warns as
+/// loadHeightMap does.
+/// Throws Failure::input for fewer than three channels, for texels that are not finite and for a map per face, and as
+/// readImage and listTiles do; Failure::device for a set larger than memory.
 HeightMap loadVectorMap(const std::string& path, const VectorOptions& options, const Warn& warn = warnOnStderr);
 
 /// Multiplies the heights or the vectors of a map.
@@ -61,6 +68,7 @@ void scaleHeights(HeightMap& map, double factor);
 struct VectorSample {
     dvec3 c{0}, cs{0}, ct{0};
 };
+VectorSample sampleVectors(const VectorMap& map, const MapPlace& place);
 VectorSample sampleVectors(const VectorMap& map, const dvec2& st);
 
 // --- the displaced surface ------------------------------------------------------------------------------------------

@@ -36,7 +36,7 @@ inline constexpr Word<FindingKind> kFindingKinds[] = {
     {"flip", FindingKind::flip, "the map is mirrored or turned against the texture coordinates"},
     {"axes", FindingKind::axes, "the channels of a vector map are in another order than is said"},
     {"seam", FindingKind::seam, "the two sides of a seam have different heights"},
-    {"outside", FindingKind::outside, "texture coordinates leave the map"},
+    {"outside", FindingKind::outside, "texture coordinates leave the map, or the tiles of a set"},
     {"island", FindingKind::island, "a part of the layout has no heights"},
     {"stretch", FindingKind::stretch, "texels are much longer on the surface than others"},
     {"fold", FindingKind::fold, "heights fold the surface over itself"},
@@ -83,16 +83,18 @@ struct DoctorSubject {
     const Surface* surface = nullptr;
     const ReferenceSurface* reference = nullptr;
     const SurfaceLayout* layout = nullptr;
-    double unit = 1; ///< cage units per unit of positions
+    double unit = 1;            ///< cage units per unit of positions
+    std::uint64_t topology = 0; ///< hashTopology() of the cage: maps per face of other cages are refused
 };
 
 /// A map and what is wrong with it.
 struct Examination {
     std::string path;
-    HeightMap map;                 ///< in the unit of positions; of vectors their lengths
-    double bound = 0;              ///< largest |h|, cage units
-    std::vector<Finding> findings; ///< in the order of FindingKind
-    SeamReport seams;              ///< in the unit of positions
+    HeightMap map;                       ///< in the unit of positions; of vectors their lengths
+    std::string vectorOrder, vectorFlip; ///< of a vector map: VectorOptions' order and flip
+    double bound = 0;                    ///< largest |h|, cage units
+    std::vector<Finding> findings;       ///< in the order of FindingKind
+    SeamReport seams;                    ///< in the unit of positions
 
     [[nodiscard]] bool isHealthy() const;
 };
@@ -104,16 +106,16 @@ struct DoctorOptions {
 };
 
 /// Reads a map and examines its values, its layout on the surface and the surface that it makes. Of vector maps these
-/// are the midlevels of the components, their order, and seams, islands and folds by the lengths of the vectors.
-/// Throws as loadHeightMap and loadVectorMap do.
+/// are the midlevels of the components, their order, and seams, islands and folds by the lengths of the vectors. Of a
+/// set of tiles each file is examined as a map of its own; of a map per face values and folds are, for it has no
+/// layout. Throws as loadHeightMap and loadVectorMap do, and Failure::input for a map per face of another cage.
 Examination examineMap(const std::string& path, const DoctorOptions& options, const DoctorSubject& subject);
 
 /// Draws the layout over the heights: folds red, stretched texels orange, empty islands blue, seams whose sides
 /// disagree magenta. `side`: width and height, pixels.
 Image drawFindings(const Examination& examination, const DoctorSubject& subject, int side);
 
-// --- other renderers
-// --------------------------------------------------------------------------------------------------
+// --- other renderers ------------------------------------------------------------------------------------------------
 
 /// One parameter of another renderer, and its value as the user types it.
 struct RendererSetting {

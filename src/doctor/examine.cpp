@@ -12,31 +12,29 @@ int wrappedIndex(int index, int size, Wrap wrap) {
     return rest < 0 ? rest + size : rest;
 }
 
-/// Findings of the file itself.
-void examineFile(const MapCase& map, const std::string& path, const HeightCensus& census, Findings& findings) {
-    if (!map.info.hasUnit() && !map.options.height.scale)
-        findings.push_back({.kind = FindingKind::scale,
-                            .isFault = false,
-                            .text = "integer heights have no unit and no scale is given: the map spans one cage unit",
-                            .advice = "--scale with the height in cage units between black and white",
-                            .figure = 1});
-    if (census.voidCount() > 0)
-        findings.push_back({.kind = FindingKind::voids,
-                            .text = fmt::format("{} of {} texels are voids ({}); they are filled from around them",
-                                                census.voidCount(), map.map.texels.size(), census.voidReason()),
-                            .advice = "fill them in the program that made the map",
-                            .figure = double(census.voidCount())});
-    const std::vector<std::string> layers = layersOf(map.info);
-    if (layers.size() > 1 && map.options.height.channel.empty())
-        findings.push_back({.kind = FindingKind::channel,
-                            .isFault = false,
-                            .text = fmt::format("{} has {} layers, and none is named: {} is taken", path, layers.size(),
-                                                map.info.channelNames.front()),
-                            .advice = "--channel NAME",
-                            .figure = double(layers.size())});
+/// Parts of the surface where a set has no tile.
+void examineMissingTiles(const MapCase& map, Findings& findings) {
+    double area = 0, missing = 0;
+    const LayoutCell* first = nullptr;
+    for (const LayoutCell& cell : map.subject.layout->cells) {
+        area += cell.area;
+        if (findTile(map.map.tiles, cell.st) != nullptr) continue;
+        missing += cell.area;
+        if (first == nullptr) first = &cell;
+    }
+    if (first == nullptr) return;
+    findings.push_back({.kind = FindingKind::outside,
+                        .isFault = false,
+                        .text = fmt::format("{:.1f} % of the surface lies where the set has no tile, first at {}",
+                                            100 * missing / area, describeSpot(map, first->at)),
+                        .advice = "nothing, if these parts are meant to stay smooth; else export their tiles as well",
+                        .figure = missing / area,
+                        .at = first->at});
 }
 
 void examineOutside(const MapCase& map, Findings& findings) {
+    if (map.map.addressing == Addressing::tiles) return examineMissingTiles(map, findings);
+    if (map.map.addressing == Addressing::faces) return;
     const SurfaceLayout& layout = *map.subject.layout;
     constexpr double kRounding = 1e-4;
     if (!layout.hasTexCoords || map.options.namesWrap) return;
@@ -58,28 +56,74 @@ HeightMap loadVectors(const std::string& path, const DoctorOptions& options, con
     return loadVectorMap(path, own, warn);
 }
 
-/// The channel as it is in the file, with its voids.
-HeightCensus takeCensus(const std::string& path, const ImageInfo& info, const HeightOptions& options) {
-    HeightCensus census(info);
-    const ChannelIndex index = findChannel(info, options.channel).value_or(ChannelIndex());
-    for (const float texel : readImage(path, index.channel, options.limits, index.part).texels) census.add(texel);
-    census.finish();
-    return census;
+/// The map as it displaces the surface, in the unit of positions.
+HeightMap loadMap(const std::string& path, const DoctorOptions& options, const DoctorSubject& subject) {
+    // What loading warns of are findings, with their figures.
+    const Warn ignore = [](const std::string&) {};
+    if (findTilePattern(path) && !subject.layout->hasTexCoords)
+        fail(Failure::input, "{}: a set of tiles needs texture coordinates, and the cage has none", path);
+    HeightMap map =
+        options.vectors ? loadVectors(path, options, ignore) : loadHeightMap(path, options.height, ignore).decoded;
+    if (map.addressing == Addressing::faces) {
+        if (map.topology != subject.topology)
+            fail(Failure::input, "{}: this map per face was made for another cage ({:016x}, not {:016x})", path,
+                 map.topology, subject.topology);
+        fitToFaces(map, *subject.surface);
+    }
+    scaleHeights(map, 1 / subject.unit);
+    return map;
+}
+
+/// Calls `take(x, y, island)` with the texels that cells cover of a picture of the unit square from `lower` on.
+template <typename Take>
+void eachCovered(const SurfaceLayout& layout, const ivec2& size, const dvec2& lower, double margin, const Take& take) {
+    for (const LayoutCell& cell : layout.cells) {
+        std::array<dvec2, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k)
+            corners[k] =
+                dvec2((cell.corners[k].x - lower.x) * size.x, (1 - (cell.corners[k].y - lower.y)) * size.y) - 0.5;
+        eachPointIn(corners, -margin * dvec2(size), dvec2(size) - 1.0 + margin * dvec2(size),
+                    [&](int x, int y) { take(x, y, cell.island); });
+    }
 }
 
 } // namespace
 
-std::vector<std::uint32_t> coverTexels(const SurfaceLayout& layout, int width, int height, Wrap wrap) {
-    std::vector<std::uint32_t> coverage(std::size_t(width) * std::size_t(height), kNoIsland);
-    // Cells far outside of the map, or several times as large, cover no more of it.
-    const dvec2 size(width, height), most = 8.0 * size;
-    for (const LayoutCell& cell : layout.cells) {
-        std::array<dvec2, 4> corners;
-        for (std::size_t k = 0; k < 4; ++k)
-            corners[k] = dvec2(cell.corners[k].x * width, (1 - cell.corners[k].y) * height) - 0.5;
-        eachPointIn(corners, -most, most, [&](int x, int y) {
-            const auto row = std::size_t(wrappedIndex(y, height, wrap));
-            coverage[row * std::size_t(width) + std::size_t(wrappedIndex(x, width, wrap))] = cell.island;
+std::vector<float> valuesOf(const HeightMap& map) {
+    if (map.addressing == Addressing::texture) return map.texels;
+    std::vector<float> values;
+    const int apron = apronOf(map.addressing);
+    for (const MapTile& tile : map.tiles)
+        for (int y = 0; y < tile.size.y; ++y) {
+            const auto stride = std::ptrdiff_t(tile.size.x) + 2 * apron;
+            const float* row = &map.texels[tile.first] + (y + apron) * stride + apron;
+            values.insert(values.end(), row, row + tile.size.x);
+        }
+    return values;
+}
+
+std::vector<std::uint32_t> coverTexels(const SurfaceLayout& layout, const HeightMap& map) {
+    if (map.addressing == Addressing::texture) {
+        // Cells far outside of the map, or several times as large, cover no more of it.
+        constexpr double kMargin = 8;
+        std::vector<std::uint32_t> coverage(map.texels.size(), kNoIsland);
+        eachCovered(layout, {map.width, map.height}, dvec2(0), kMargin, [&](int x, int y, std::uint32_t island) {
+            const auto row = std::size_t(wrappedIndex(y, map.height, map.wrap));
+            coverage[row * std::size_t(map.width) + std::size_t(wrappedIndex(x, map.width, map.wrap))] = island;
+        });
+        return coverage;
+    }
+    std::vector<std::uint32_t> coverage;
+    std::vector<std::uint32_t> islands(map.tiles.size(), kNoIsland); // of faces
+    if (map.addressing == Addressing::faces)
+        for (const LayoutCell& cell : layout.cells) islands[cell.at.face] = cell.island;
+    for (std::size_t t = 0; t < map.tiles.size(); ++t) {
+        const ivec2 size = map.tiles[t].size;
+        const std::size_t first = coverage.size();
+        coverage.resize(first + std::size_t(size.x) * std::size_t(size.y), islands[t]);
+        if (map.addressing == Addressing::faces) continue;
+        eachCovered(layout, size, dvec2(map.tiles[t].place), 0, [&](int x, int y, std::uint32_t island) {
+            coverage[first + std::size_t(y) * std::size_t(size.x) + std::size_t(x)] = island;
         });
     }
     return coverage;
@@ -90,48 +134,46 @@ bool Examination::isHealthy() const {
 }
 
 Examination examineMap(const std::string& path, const DoctorOptions& options, const DoctorSubject& subject) {
-    // What loading warns of are findings, with their figures.
     Examination result{.path = path};
-    const ImageInfo info = readImageInfo(path, options.height.limits);
-    const Warn ignore = [](const std::string&) {};
-    result.map =
-        options.vectors ? loadVectors(path, options, ignore) : loadHeightMap(path, options.height, ignore).decoded;
-    if (result.map.addressing != Addressing::texture)
-        fail(Failure::usage, "{}: one map over the unit square is examined; name the files of a set one by one", path);
-    scaleHeights(result.map, 1 / subject.unit);
+    if (options.vectors) result.vectorOrder = options.vectors->order, result.vectorFlip = options.vectors->flip;
+    const bool isSet = findTilePattern(path).has_value();
+    const std::string file = isSet ? listTiles(path).front().path : path;
+    const ImageInfo info = readImageInfo(file, options.height.limits);
+    result.map = loadMap(path, options, subject);
     result.bound = result.map.heightBound() * subject.unit;
 
     // The texels that the surface shows: what lies between islands is no height, and empty islands have a finding of
     // their own.
     const SurfaceLayout& layout = *subject.layout;
-    const std::vector<std::uint32_t> coverage =
-        coverTexels(layout, result.map.width, result.map.height, result.map.wrap);
+    const std::vector<std::uint32_t> coverage = coverTexels(layout, result.map);
+    const std::vector<float> values = valuesOf(result.map);
     const std::vector<vec2> ranges = computeIslandRanges(layout, result.map, coverage);
-    MapCase map{subject, options, info, result.map, result.map.texels, {}};
+    MapCase map{subject, options, info, result.map, values, {}};
     std::ranges::sort(map.sorted);
     for (std::size_t i = 0; i < coverage.size(); ++i)
-        if (coverage[i] != kNoIsland && !isEmptyIsland(ranges[coverage[i]], result.map))
-            map.used.push_back(result.map.texels[i]);
+        if (coverage[i] != kNoIsland && !isEmptyIsland(ranges[coverage[i]], result.map)) map.used.push_back(values[i]);
     std::ranges::sort(map.used);
     if (map.used.empty()) map.used = map.sorted;
 
     // Colors come before the midlevel and flips before seams: the former explain the latter.
     Findings& findings = result.findings;
-    examineFile(map, path, takeCensus(path, info, options.height), findings);
-    result.seams = reportSeams(*subject.surface, *subject.reference, result.map);
+    const bool isPerFace = result.map.addressing == Addressing::faces;
+    if (!isPerFace) result.seams = reportSeams(*subject.surface, *subject.reference, result.map);
+    if (isSet && !options.vectors)
+        examineTiles(path, options, subject, coverage, findings);
+    else
+        examineFile(map, file, findings);
     if (options.vectors) {
         examineVectors(map, coverage, findings);
     } else {
-        examineSteps(map, findings);
-        examineColors(map, findings);
-        examineSigns(map, findings);
-        examineMidlevel(map, findings);
-        examineFlips(map, result.seams, coverage, findings);
+        if (!isSet) examineSteps(map, findings), examineColors(map, findings);
+        if (!isSet) examineSigns(map, findings), examineMidlevel(map, findings);
+        if (!isPerFace) examineFlips(map, result.seams, coverage, findings);
     }
-    examineSeams(map, result.seams, findings);
+    if (!isPerFace) examineSeams(map, result.seams, findings);
     examineOutside(map, findings);
     examineIslands(map, ranges, findings);
-    examineStretch(map, findings);
+    if (!isPerFace) examineStretch(map, findings);
     if (options.vectors)
         examineTurns(map, findings);
     else

@@ -39,9 +39,17 @@ void eachPointIn(const std::array<dvec2, 4>& quad, const dvec2& lowest, const dv
             if (isIn(dvec2(x, y), 0, 1, 2) || isIn(dvec2(x, y), 0, 2, 3)) take(x, y);
 }
 
-/// Which island covers each texel: its number, or kNoIsland.
+/// The stored values of a map without the aprons of its tiles: tile after tile, row after row.
+std::vector<float> valuesOf(const HeightMap& map);
+
+/// Which island covers each of valuesOf(): its number, or kNoIsland.
 inline constexpr std::uint32_t kNoIsland = 0xffffffffu;
-std::vector<std::uint32_t> coverTexels(const SurfaceLayout& layout, int width, int height, Wrap wrap);
+std::vector<std::uint32_t> coverTexels(const SurfaceLayout& layout, const HeightMap& map);
+
+/// Where the height at the centre of a cell is looked up.
+inline MapPlace placeOf(const LayoutCell& cell) {
+    return {.face = int(cell.at.face), .uv = dvec2(cell.at.uv), .st = cell.st};
+}
 
 /// The value that most of some values are near to, within a width, and their share.
 struct Peak {
@@ -55,6 +63,12 @@ std::string describeSpot(const MapCase& map, const SurfaceLocation& at);
 
 using Findings = std::vector<Finding>;
 
+// Of the file: voids, a scale and a channel that are not named.
+void examineFile(const MapCase& map, const std::string& path, Findings& findings);
+/// Of each file of a set what is examined of a single map's file and values; what several have is one finding.
+/// `coverage`: of the set.
+void examineTiles(const std::string& path, const DoctorOptions& options, const DoctorSubject& subject,
+                  std::span<const std::uint32_t> coverage, Findings& findings);
 // Of the values alone.
 void examineSteps(const MapCase& map, Findings& findings);
 void examineColors(const MapCase& map, Findings& findings);

@@ -20,7 +20,7 @@ constexpr Flip kFlips[] = {
     {"with s and t exchanged", false, false, true},
 };
 
-HeightMap flipped(const HeightMap& map, const Flip& flip) {
+HeightMap flippedTile(const HeightMap& map, const Flip& flip) {
     HeightMap result = map;
     for (int y = 0; y < map.height; ++y)
         for (int x = 0; x < map.width; ++x) {
@@ -30,6 +30,28 @@ HeightMap flipped(const HeightMap& map, const Flip& flip) {
                 map.texels[std::size_t(row) * std::size_t(map.width) + std::size_t(column)];
         }
     return result;
+}
+
+/// A map, or each tile of a set.
+HeightMap flipped(const HeightMap& map, const Flip& flip) {
+    if (map.addressing == Addressing::texture) return flippedTile(map, flip);
+    const std::vector<float> values = valuesOf(map);
+    std::vector<HeightMap> tiles;
+    std::vector<ivec2> places;
+    auto first = values.begin();
+    for (const MapTile& tile : map.tiles) {
+        const auto last = first + std::ptrdiff_t(tile.size.x) * tile.size.y;
+        tiles.push_back(
+            flippedTile(makeHeightMap(tile.size.x, tile.size.y, {first, last}, map.mid, map.scale, Wrap::clamp), flip));
+        places.push_back(tile.place);
+        first = last;
+    }
+    return makeTileSet(tiles, places);
+}
+
+bool hasSquareTiles(const HeightMap& map) {
+    return map.tiles.empty() ? map.width == map.height
+                             : std::ranges::all_of(map.tiles, [](const MapTile& t) { return t.size.x == t.size.y; });
 }
 
 /// The value that fills what is not painted: the most frequent one, where it is on more than a fifth of all texels.
@@ -43,9 +65,10 @@ std::optional<float> findBackground(std::span<const float> sorted) {
 /// The share of painted texels that no island covers.
 double shareOutside(const HeightMap& map, std::span<const std::uint32_t> coverage, float background) {
     const float slack = 1e-3f * (map.highest - map.lowest);
+    const std::vector<float> values = valuesOf(map);
     double painted = 0, outside = 0;
     for (std::size_t i = 0; i < coverage.size(); ++i) {
-        if (std::abs(map.texels[i] - background) <= slack) continue;
+        if (std::abs(values[i] - background) <= slack) continue;
         ++painted;
         if (coverage[i] == kNoIsland) ++outside;
     }
@@ -83,7 +106,7 @@ void examineFlips(const MapCase& map, const SeamReport& seams, std::span<const s
     double least = kClearly;
     std::string because;
     for (const Flip& flip : kFlips) {
-        if (flip.exchanges && map.map.width != map.map.height) continue;
+        if (flip.exchanges && !hasSquareTiles(map.map)) continue;
         const HeightMap heights = flipped(map.map, flip);
         const double share = background ? shareOutside(heights, coverage, *background) : 0;
         double ratio = outside > kMostOutside ? share / outside : 1;
@@ -133,11 +156,12 @@ std::vector<vec2> computeIslandRanges(const SurfaceLayout& layout, const HeightM
         vec2& range = ranges[island];
         range = {std::min(range.x, value), std::max(range.y, value)};
     };
+    const std::vector<float> values = valuesOf(map);
     for (std::size_t i = 0; i < coverage.size(); ++i)
-        if (coverage[i] != kNoIsland) add(coverage[i], map.texels[i]);
+        if (coverage[i] != kNoIsland) add(coverage[i], values[i]);
     // Islands smaller than a texel, and those that others lie over.
     for (const LayoutCell& cell : layout.cells)
-        if (map.scale != 0) add(cell.island, float(sampleHeight(map, cell.st).h / map.scale + map.mid));
+        if (map.scale != 0) add(cell.island, float(sampleHeight(map, placeOf(cell)).h / map.scale + map.mid));
     return ranges;
 }
 
@@ -181,7 +205,9 @@ void examineIslands(const MapCase& map, std::span<const vec2> ranges, Findings& 
 
 dvec2 texelExtents(const LayoutCell& cell, const HeightMap& map) {
     // Singular values of the map from texels to the surface, by the eigenvalues of its Gram matrix.
-    const dvec3 x = cell.tangents[0] / double(map.width), y = cell.tangents[1] / double(map.height);
+    const MapTile* tile = map.addressing == Addressing::tiles ? findTile(map.tiles, cell.st) : nullptr;
+    const dvec2 size = tile != nullptr ? dvec2(tile->size) : dvec2(map.width, map.height);
+    const dvec3 x = cell.tangents[0] / size.x, y = cell.tangents[1] / size.y;
     const double a = glm::dot(x, x), b = glm::dot(x, y), c = glm::dot(y, y);
     if (!std::isfinite(a + c)) return dvec2(INFINITY, 0);
     const double mean = 0.5 * (a + c), spread = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
@@ -191,8 +217,9 @@ dvec2 texelExtents(const LayoutCell& cell, const HeightMap& map) {
 bool StretchLimit::isExceededBy(const dvec2& extents) const { return extents.x > longest; }
 
 StretchLimit computeStretchLimit(const SurfaceLayout& layout, const HeightMap& map) {
-    constexpr double kMost = 6;                     // times the usual length
-    std::vector<std::pair<double, double>> lengths; // and area
+    if (map.addressing == Addressing::faces) return {}; // nodes follow the faces
+    constexpr double kMost = 6;                         // times the usual length
+    std::vector<std::pair<double, double>> lengths;     // and area
     double area = 0;
     for (const LayoutCell& cell : layout.cells)
         lengths.emplace_back(texelExtents(cell, map).x, cell.area), area += cell.area;
@@ -238,7 +265,7 @@ double foldFactorOf(const LayoutCell& cell, const HeightMap& map, const Referenc
         return std::isfinite(turned) ? turned : 1;
     }
     if (!cell.curvature) return 1;
-    const double h = sampleHeight(map, cell.st).h;
+    const double h = sampleHeight(map, placeOf(cell)).h;
     const double factor = 1 + std::min(h * cell.curvature->lowest, h * cell.curvature->highest);
     return std::isfinite(factor) ? factor : 1;
 }
@@ -261,7 +288,8 @@ void examineFolds(const MapCase& map, Findings& findings) {
          .text = fmt::format(
              "heights fold {:.2f} % of the surface over itself: 1 + h k is down to {:.3g} at {}, where h = {:.3g} "
              "cage units",
-             100 * folded / area, lowest, describeSpot(map, at->at), map.cageUnits(sampleHeight(map.map, at->st).h)),
+             100 * folded / area, lowest, describeSpot(map, at->at),
+             map.cageUnits(sampleHeight(map.map, placeOf(*at)).h)),
          .advice = fmt::format(
              "--scale {:.3g} folds nothing; or lower the heights there, or model the form in the cage", scale),
          .figure = lowest,

@@ -78,7 +78,9 @@ void drawHeights(LayoutCanvas& canvas, const HeightMap& map, const SurfaceLayout
         canvas.eachPixel(cell.corners, [&](int x, int y) {
             double share = 0.5;
             if (map.scale != 0) {
-                const double h = sampleHeight(map, canvas.toTexture({x, y})).h;
+                MapPlace place = placeOf(cell);
+                if (map.addressing != Addressing::faces) place.st = canvas.toTexture({x, y});
+                const double h = sampleHeight(map, place).h;
                 share = (h / map.scale + map.mid - map.lowest) / range;
             }
             canvas.set(x, y, vec3(float(0.2 + 0.4 * share)));
@@ -87,8 +89,7 @@ void drawHeights(LayoutCanvas& canvas, const HeightMap& map, const SurfaceLayout
 
 void drawCells(LayoutCanvas& canvas, const HeightMap& map, const DoctorSubject& subject) {
     const SurfaceLayout& layout = *subject.layout;
-    const std::vector<vec2> ranges =
-        computeIslandRanges(layout, map, coverTexels(layout, map.width, map.height, map.wrap));
+    const std::vector<vec2> ranges = computeIslandRanges(layout, map, coverTexels(layout, map));
     const StretchLimit limit = computeStretchLimit(layout, map);
     const bool hasIslands = layout.islandFaces.size() > 1;
     for (const LayoutCell& cell : layout.cells) {

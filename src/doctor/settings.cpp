@@ -6,6 +6,20 @@ namespace {
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
 
+/// Which channels of the map another program has to be given as red, green and blue, where it takes those as `order`,
+/// some of them flipped: "R, B, G".
+std::string shuffleFor(const Examination& examination, const std::string& order, const std::string& flip) {
+    std::string channels;
+    for (const char axis : order) {
+        const std::size_t index = examination.vectorOrder.find(axis);
+        const auto isIn = [&](const std::string& axes) { return axes.find(axis) != std::string::npos; };
+        channels += channels.empty() ? "" : ", ";
+        channels += isIn(flip) != isIn(examination.vectorFlip) ? "-" : "";
+        channels += index < 3 ? "RGB"[index] : '?';
+    }
+    return channels;
+}
+
 std::vector<RendererSetting> listVectorSettings(const Examination& examination, double unit) {
     const VectorMap& vectors = *examination.map.vectors;
     const HeightMap& first = vectors.channels[0];
@@ -14,12 +28,15 @@ std::vector<RendererSetting> listVectorSettings(const Examination& examination, 
     return {
         {"blender", "Image Texture: Color Space", "Non-Color"},
         {"blender", "Image Texture: Extension", first.wrap == Wrap::repeat ? "Repeat" : "Extend"},
+        {"blender", "Image channels as red, green, blue", shuffleFor(examination, "xzy", isTangent ? "" : "z")},
         {"blender", "Vector Displacement node: Space", isTangent ? "Tangent Space" : "Object Space"},
         {"blender", "Vector Displacement node: Midlevel", number(first.mid)},
         {"blender", "Vector Displacement node: Scale", scale},
         {"blender", "Material: Displacement", "Displacement and Bump"},
         {"arnold", "image: color_space", "Raw"},
         {"arnold", "polymesh: subdiv_type", "catclark"},
+        {"arnold", fmt::format("image channels for vector_map: order {}", isTangent ? "XZY" : "XYZ"),
+         shuffleFor(examination, isTangent ? "xzy" : "xyz", "")},
         {"arnold", "vector_map: tangent_space", isTangent ? "on" : "off"},
         {"arnold", "polymesh: disp_height", scale},
         {"arnold", "polymesh: disp_padding", bound},
@@ -30,10 +47,7 @@ std::vector<RendererSetting> listVectorSettings(const Examination& examination, 
     };
 }
 
-} // namespace
-
-std::vector<RendererSetting> listRendererSettings(const Examination& examination, double unit) {
-    if (examination.map.vectors) return listVectorSettings(examination, unit);
+std::vector<RendererSetting> listHeightSettings(const Examination& examination, double unit) {
     const HeightMap& map = examination.map;
     const std::string scale = number(map.scale * unit), mid = number(map.mid), bound = number(examination.bound);
     return {
@@ -58,6 +72,34 @@ std::vector<RendererSetting> listRendererSettings(const Examination& examination
         {"renderman", "PxrDisplace: dispAmount", "1"},
         {"renderman", "Attribute displacementbound: sphere", bound},
     };
+}
+
+/// How the files of a set are named, and that a map per face has to become one over texture coordinates.
+void addFiles(const Examination& examination, std::vector<RendererSetting>& settings) {
+    std::vector<RendererSetting> files;
+    if (const std::optional<TilePattern> pattern = findTilePattern(examination.path)) {
+        const auto named = [&](const char* token) { return pattern->before + token + pattern->after; };
+        const bool isUdim = pattern->numbers == TilePattern::Numbers::udim;
+        const std::string renamed = isUdim ? "" : "renamed to UDIM numbers: ";
+        files = {{"blender", "Image: Source", "UDIM Tiles"},
+                 {"blender", "Image: File", renamed + named("<UDIM>")},
+                 {"arnold", "image: filename", renamed + named("<udim>")},
+                 {"renderman", "PxrTexture: filename", renamed + named("<UDIM>")}};
+    }
+    if (examination.map.addressing == Addressing::faces)
+        for (const char* renderer : {"blender", "arnold", "renderman"})
+            files.push_back({renderer, "texture",
+                             fmt::format("over texture coordinates: relief map CAGE {} -o MAP.exr", examination.path)});
+    settings.insert(settings.begin(), files.begin(), files.end());
+}
+
+} // namespace
+
+std::vector<RendererSetting> listRendererSettings(const Examination& examination, double unit) {
+    std::vector<RendererSetting> settings =
+        examination.map.vectors ? listVectorSettings(examination, unit) : listHeightSettings(examination, unit);
+    addFiles(examination, settings);
+    return settings;
 }
 
 } // namespace relief

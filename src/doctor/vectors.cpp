@@ -15,11 +15,12 @@ struct Component {
 
 Component takeComponent(const MapCase& map, const HeightMap& channel, std::span<const std::uint32_t> coverage) {
     Component component;
+    const std::vector<float> values = valuesOf(channel);
     double sum = 0;
     for (std::size_t i = 0; i < coverage.size(); ++i) {
         if (coverage[i] == kNoIsland) continue;
-        component.stored.push_back(channel.texels[i]);
-        sum += std::pow(map.cageUnits(channel.scale * (double(channel.texels[i]) - channel.mid)), 2);
+        component.stored.push_back(values[i]);
+        sum += std::pow(map.cageUnits(channel.scale * (double(values[i]) - channel.mid)), 2);
     }
     std::ranges::sort(component.stored);
     component.rms = std::sqrt(sum / double(std::max<std::size_t>(component.stored.size(), 1)));

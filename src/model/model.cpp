@@ -45,11 +45,9 @@ MapRecord makeRecord(const HeightMap& map, const MapWords& words) {
 void appendWords(MapWords& to, const MapWords& words, MapRecord& record) {
     to.words.resize((to.words.size() + 1) / 2 * 2, 0);
     const auto first = std::uint32_t(to.words.size());
-    for (std::uint32_t level = 0; level < record.levelCount; ++level) {
-        record.firstWords[level] += first;
-        to.firsts.push_back(record.firstWords[level]);
-        to.sizes.push_back(words.sizes[level]);
-    }
+    for (std::uint32_t level = 0; level < std::max(record.levelCount, 1u); ++level) record.firstWords[level] += first;
+    for (const std::uint32_t word : words.firsts) to.firsts.push_back(first + word);
+    to.sizes.insert(to.sizes.end(), words.sizes.begin(), words.sizes.end());
     to.words.insert(to.words.end(), words.words.begin(), words.words.end());
 }
 
@@ -73,7 +71,7 @@ void uploadVectors(Device& device, const HeightMap& map, SurfaceModel& model) {
                                 records[0],
                                 format,
                                 float(map.heightBound()),
-                                Addressing::texture,
+                                map.addressing,
                                 std::uint32_t(vectors.space),
                                 {records[1], records[2]}};
     model.heightPyramid = HeightPyramid(map, float(roundOff / std::abs(map.scale)));

@@ -84,17 +84,14 @@ namespace {
 
 /// Reads one map of an object, heights or vectors, which have their own encodings.
 EncodedMap readHeights(const HeightDesc& height, const LayerDesc& map, const Warn& warn) {
+    if (findTilePattern(map.path) && height.wrap)
+        fail(Failure::usage, "{}: a set of tiles does not repeat; omit --wrap", map.path);
     if (map.vectors) {
-        if (findTilePattern(map.path))
-            fail(Failure::usage, "{}: a vector map is one file; sets of tiles hold heights, colors or normals",
-                 map.path);
         VectorOptions options = *map.vectors;
         options.mid = map.mid, options.scale = map.scale, options.channel = map.channel;
         options.format = height.format, options.wrap = height.wrap.value_or(options.wrap);
         return {.decoded = loadVectorMap(map.path, options, warn), .encoding = {}};
     }
-    if (findTilePattern(map.path) && height.wrap)
-        fail(Failure::usage, "{}: a set of tiles does not repeat; omit --wrap", map.path);
     HeightOptions options{
         .mid = map.mid, .scale = map.scale, .channel = map.channel, .format = height.format, .limits = {}};
     options.wrap = height.wrap.value_or(options.wrap);
@@ -117,6 +114,43 @@ MapLayer readLayer(const HeightDesc& height, const LayerDesc& desc, const Warn& 
     return layer;
 }
 
+bool isPerFace(const HeightMap& map) { return map.addressing == Addressing::faces; }
+
+/// Where one layer is a map per face, and others are not, those are made maps per face: heights alone can be.
+void makeAllPerFace(std::vector<MapLayer>& layers, const ObjectDesc& desc, const Cage& cage) {
+    const HeightMap* perFace = nullptr;
+    bool areMixed = false;
+    const auto visit = [&](const HeightMap& map) {
+        if (isPerFace(map) && perFace == nullptr) perFace = &map;
+        areMixed = areMixed || !isPerFace(map);
+    };
+    for (const MapLayer& layer : layers) {
+        visit(layer.map);
+        if (layer.mask) visit(*layer.mask);
+    }
+    const std::optional<SurfaceOptions> options = chooseSurface(desc, cage);
+    if (perFace == nullptr || !areMixed || !options) return;
+    for (const MapLayer& layer : layers)
+        if (layer.map.vectors)
+            fail(Failure::usage,
+                 "{}: vectors cannot be added to a map per face; relief map makes that a map over texture coordinates",
+                 layer.name);
+    const Surface surface = buildSurface(cage, *options);
+    const ReferenceSurface reference(cage, *options);
+    const std::uint64_t topology = perFace->topology;
+    const auto convert = [&](HeightMap& map, MapPlacement& placement) {
+        if (isPerFace(map)) return;
+        map = toFaceMap(map, placement, surface, reference);
+        map.topology = topology;
+        placement = {};
+    };
+    for (MapLayer& layer : layers) {
+        convert(layer.map, layer.placement);
+        MapPlacement ofMask;
+        if (layer.mask) convert(*layer.mask, ofMask);
+    }
+}
+
 /// The map of an object, with its layers added.
 EncodedMap readAllHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
     const HeightDesc& height = desc.height;
@@ -130,6 +164,7 @@ EncodedMap readAllHeights(const ObjectDesc& desc, const Cage& cage, const Warn& 
     if (height.layers.empty()) return readHeights(height, first, warn);
     std::vector<MapLayer> layers{readLayer(height, first, warn)};
     for (const LayerDesc& layer : height.layers) layers.push_back(readLayer(height, layer, warn));
+    makeAllPerFace(layers, desc, cage);
     const Wrap wrap = height.wrap.value_or(Wrap::repeat);
     EncodedMap sum = addLayers(layers, wrap, height.format.value_or(MapFormat::real));
     if (sum.decoded.addressing == Addressing::texture && wrap == Wrap::repeat && !repeatsWhole(layers) &&

@@ -51,6 +51,25 @@ TEST_F(LayerOption, addsMaps) {
     EXPECT_GT(json.at("displacement_bound").get<double>(), 0.12);
 }
 
+// A map per face, a set of tiles, a map that repeats, a mask: each is looked up in its own way.
+TEST_F(LayerOption, addsMapsOfAllKinds) {
+    const std::string a = write("a.exr", 1), b = write("b.exr", 2), set = folder / "t.<UDIM>.exr";
+    (void)write("t.1001.exr", 3), (void)write("v.1001.exr", 4, 3);
+    expectDone(relief({"map", torus, a, "-o", folder / "faces.exr", "-q"}));
+    const Words layers{"--layer", set, "--layer", b + ",repeat=2:3,mask=" + a};
+    Words words{"check", torus, "--height", folder / "faces.exr", "--json"},
+        others{"check", torus, "--height", a, "--json"};
+    words.insert(words.end(), layers.begin(), layers.end()), others.insert(others.end(), layers.begin(), layers.end());
+    const std::string more = "--rate 3 --points 2000 --path dice";
+    const double perFace = jsonOf(relief(words, more)).at("displacement_bound").get<double>();
+    const double perTexel = jsonOf(relief(others, more)).at("displacement_bound").get<double>();
+    EXPECT_NEAR(perFace, perTexel, 0.2 * perTexel);
+    // Vectors over tiles, with heights.
+    const nlohmann::json json = jsonOf(
+        relief({"check", torus, "--vector", folder / "v.<UDIM>.exr", "--layer", set, "--layer", a, "--json"}, more));
+    EXPECT_GT(json.at("displacement_bound").get<double>(), 0.12);
+}
+
 TEST_F(LayerOption, placesAllMapsAtOnce) {
     // The same as texture coordinates that are written so.
     std::string text = readFile(torus), moved;
@@ -83,7 +102,7 @@ TEST_F(LayerOption, refusesWhatMakesNoSense) {
     refused({"--height", a, "--layer", folder / "none.exr"}, Failure::file, {"none.exr"});
     refused({"--height", a, "--map-repeat", "0,1"}, Failure::usage, {"--map-repeat"});
     refused({"--height", folder / "t.<UDIM>.exr", "--map-repeat", "2,2"}, Failure::usage, {"<UDIM>", "--map-repeat"});
-    refused({"--vector", folder / "t.<UDIM>.exr"}, Failure::usage, {"<UDIM>", "one file"});
+    refused({"--vector", folder / "t.<UDIM>.exr"}, Failure::input, {"t.1001.exr", "3 channels"});
     refused({"--height", a, "--uv-set", "1"}, Failure::usage, {"--uv-set", ".obj"});
     refused({"--environment", folder / "t.<UDIM>.exr"}, Failure::usage, {"<UDIM>", "one tile"});
     EXPECT_FALSE(std::filesystem::exists(out));

@@ -123,6 +123,41 @@ TEST(MapLayers, ofTilesAreOverTheTilesOfAll) {
     });
 }
 
+TEST(MapLayers, ofTilesAndVectorsAreVectorsInTiles) {
+    Image components{.width = 8, .height = 8, .channels = 3, .texels = {}};
+    std::mt19937 random(1);
+    for (int i = 0; i < 192; ++i) components.texels.push_back(float(random() % 100) / 100);
+    const HeightMap vectors = makeVectorMap(components, {.limits = {}});
+    const HeightMap tiles =
+        makeTileSet(std::vector{noise(8, 8, 1), noise(8, 8, 2)}, std::vector{ivec2(0, 0), ivec2(2, 0)});
+    const HeightMap sum =
+        addLayers(std::vector{layerOf(tiles), layerOf(vectors)}, Wrap::repeat, MapFormat::real).decoded;
+    ASSERT_TRUE(sum.vectors);
+    ASSERT_EQ(sum.tiles.size(), 2u);
+    for (const dvec2& st : {dvec2(2.5, 3.5) / 8.0, dvec2(16 + 3.5, 1.5) / 8.0}) { // centres of texels
+        const dvec3 expected = sampleVectors(*vectors.vectors, st).c + dvec3(0, 0, sampleHeight(tiles, st).h);
+        EXPECT_LT(glm::length(sampleVectors(*sum.vectors, st).c - expected), 1e-6);
+    }
+}
+
+// A map over texture coordinates becomes one per face where it is added to one, nodes as fine as its texels.
+TEST(MapLayers, overTextureCoordinatesCanBePerFace) {
+    const Cage cage = torusWithSeams(6, 4);
+    const Surface surface = buildSurface(cage, {.isolation = 1});
+    const ReferenceSurface reference(cage, {.isolation = 1});
+    const HeightMap texture = noise(24, 16, 3); // four texels per face each way
+    const MapPlacement twice{.repeat = {2, 1}, .offset = {0.125, 0}};
+    const HeightMap faces = toFaceMap(texture, twice, surface, reference);
+    for (int f = 0; f < int(surface.faces.size()); ++f) {
+        EXPECT_EQ(faces.tiles[std::size_t(f)].segments, ivec2(3, 2));
+        const dvec2 uv(0.625, 0.5); // a node
+        const dvec2 st = twice.at(reference.texture(f, uv).st);
+        EXPECT_NEAR(sampleHeight(faces, {.face = f, .uv = uv}).h, sampleHeight(texture, st).h, 1e-6);
+    }
+    const HeightMap coarse = toFaceMap(texture, {}, surface, reference, 2);
+    EXPECT_EQ(coarse.tiles[0].segments, ivec2(1));
+}
+
 TEST(MapLayers, ofFacesAreTheSumOfFittedMaps) {
     const Surface surface = buildSurface(torusWithSeams(6, 4), {.isolation = 1});
     std::mt19937 random(1);

@@ -92,6 +92,34 @@ TEST(TileFiles, thatAreWrongAreRefused) {
     expectFailure(Failure::input, {"nan.1011.exr", "nan"}, [&] { load("nan.<UDIM>.exr"); });
 }
 
+// Vectors in tiles of different sizes and types: each component is the set of one channel, and missing tiles are 0.
+TEST(TileFiles, ofThreeChannelsAreVectors) {
+    const TemporaryFolder folder;
+    const auto write = [&](const char* name, const ivec2& size, const vec3& c, SampleType type) {
+        Image image{.width = size.x, .height = size.y, .channels = 3, .texels = {}};
+        for (int i = 0; i < size.x * size.y; ++i) image.texels.insert(image.texels.end(), {c.x, c.y, c.z});
+        writeImage(folder / name, image, type);
+    };
+    write("v.1001.exr", {4, 4}, {0.25f, 0.5f, 1}, SampleType::real);
+    write("v.1002.exr", {2, 8}, {-1, 0, 0.5f}, SampleType::half);
+    const VectorOptions options{.order = "xzy", .flip = "y", .scale = 2, .limits = {}};
+    Warnings warnings;
+    const HeightMap map = loadVectorMap(folder / "v.<UDIM>.exr", options, warnings.warn());
+    EXPECT_TRUE(warnings.lines.empty());
+    ASSERT_TRUE(map.vectors && map.addressing == Addressing::tiles);
+    EXPECT_EQ(sampleVectors(*map.vectors, dvec2(0.5, 0.5)).c, dvec3(0.5, -2, 1));
+    EXPECT_EQ(sampleVectors(*map.vectors, dvec2(1.5, 0.5)).c, dvec3(-2, -1, 0));
+    EXPECT_EQ(sampleVectors(*map.vectors, dvec2(2.5, 0.5)).c, dvec3(0));
+    EXPECT_NEAR(map.heightBound(), 2 * std::sqrt(0.25 * 0.25 + 0.5 * 0.5 + 1), 1e-6);
+    // In one line: a tile of two channels, and one with a number that is none.
+    writeImage(folder / "two.1001.exr", {1, 1, 2, {0, 0}}, SampleType::real);
+    write("nan.1001.exr", {1, 1}, vec3(0), SampleType::real);
+    write("nan.1011.exr", {1, 1}, vec3(0, NAN, 0), SampleType::real);
+    const auto load = [&](const char* name) { (void)loadVectorMap(folder / name, options, warnings.warn()); };
+    expectFailure(Failure::input, {"two.1001.exr", "3 channels"}, [&] { load("two.<UDIM>.exr"); });
+    expectFailure(Failure::input, {"nan.1011.exr", "nan"}, [&] { load("nan.<UDIM>.exr"); });
+}
+
 TEST(FaceFiles, keepAllHeights) {
     const TemporaryFolder folder;
     const Cage cage = torusWithSeams(6, 4);
