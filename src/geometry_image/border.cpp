@@ -132,9 +132,10 @@ bool splitAtCorner(CutMesh& mesh, const SquareBorder& border) {
     return edge != kNone;
 }
 
-/// Splits the edges inside of the disk whose ends are both on its border.
-void splitChords(CutMesh& mesh, const Disk& disk) {
-    std::vector<char> isOnBorder(mesh.halfEdgeCount()); // per half-edge: its start
+/// Splits the edges inside of the disk whose ends are both on its border; false where there are none.
+bool splitChords(CutMesh& mesh, const Disk& disk) {
+    const std::uint32_t before = mesh.halfEdgeCount();
+    std::vector<char> isOnBorder(before); // per half-edge: its start
     for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) isOnBorder[h] = disk.isOnBorder[disk.corners[h]];
     for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) {
         if (mesh.isBorder(h) || isOnBorder[h] == 0 || isOnBorder[nextOf(h)] == 0) continue;
@@ -146,18 +147,19 @@ void splitChords(CutMesh& mesh, const Disk& disk) {
         mesh.split(h, 0.5);
     }
     RELIEF_CHECK(isOnBorder.size() == mesh.halfEdgeCount());
+    return mesh.halfEdgeCount() > before;
 }
 
 } // namespace
 
 SquareBorder fitSquare(CutMesh& mesh, int size, const std::string& name) {
     SquareBorder border = makeSquareBorder(mesh, size, name);
-    for (int splits = 0; splitAtCorner(mesh, border); ++splits) {
-        RELIEF_CHECK(splits < 8);
+    // Splits change the numbers of half-edges, so that the border is walked again after them.
+    constexpr int kMostSplits = 16;
+    for (int splits = 0; splitAtCorner(mesh, border) || splitChords(mesh, border.disk); ++splits) {
+        RELIEF_CHECK(splits < kMostSplits);
         border = makeSquareBorder(mesh, size, name);
     }
-    splitChords(mesh, border.disk);
-    border.disk = cutOpen(mesh); // splits inside leave the paths as they are
     return border;
 }
 

@@ -1,6 +1,7 @@
 #include "geometry_image/cut.h"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -20,22 +21,25 @@ public:
     RouteSearch(const CutMesh& mesh, const Disk& disk)
         : mesh_(mesh), disk_(disk), distances_(disk.vertexCount(), kFar), arrivals_(disk.vertexCount(), kNone) {}
 
-    /// Searches from a copy until `isGoal` is true of one, which it returns; kNone within `limit`.
-    /// Without a goal it returns the copy that is farthest away.
-    std::uint32_t search(std::uint32_t start, double limit, const std::function<bool(std::uint32_t)>& isGoal) {
-        start_ = start;
-        distances_[start] = 0;
+    /// Searches from the nearest of several copies until `isGoal` is true of one, which it returns; kNone where there
+    /// is none within `limit`. Without a goal it returns the copy that is farthest away.
+    std::uint32_t search(std::span<const std::uint32_t> starts, double limit,
+                         const std::function<bool(std::uint32_t)>& isGoal) {
         NearestFirst next;
-        next.emplace(0, start);
-        std::uint32_t last = start;
+        for (const std::uint32_t start : starts) {
+            distances_[start] = 0;
+            next.emplace(0, start);
+        }
+        std::uint32_t last = kNone;
         while (!next.empty()) {
             const auto [distance, v] = next.top();
             next.pop();
             if (distance > distances_[v]) continue;
             if (distance >= limit) return kNone;
             last = v;
-            if (v != start && isGoal && isGoal(v)) return v;
-            if (v != start && disk_.isOnBorder[v] != 0) continue;
+            const bool isStart = arrivals_[v] == kNone;
+            if (!isStart && isGoal && isGoal(v)) return v;
+            if (!isStart && disk_.isOnBorder[v] != 0) continue;
             for (const std::uint32_t h : disk_.edgesFrom(v)) {
                 if (mesh_.isBorder(h)) continue;
                 const std::uint32_t to = disk_.corners[nextOf(h)];
@@ -50,7 +54,7 @@ public:
 
     [[nodiscard]] Route routeTo(std::uint32_t end) const {
         Route route{{}, distances_[end]};
-        for (std::uint32_t v = end; v != start_; v = disk_.corners[route.halfEdges.back()])
+        for (std::uint32_t v = end; arrivals_[v] != kNone; v = disk_.corners[route.halfEdges.back()])
             route.halfEdges.push_back(arrivals_[v]);
         std::ranges::reverse(route.halfEdges);
         return route;
@@ -60,8 +64,7 @@ private:
     const CutMesh& mesh_;
     const Disk& disk_;
     std::vector<double> distances_;
-    std::vector<std::uint32_t> arrivals_; ///< the half-edge of the route that ends at each copy
-    std::uint32_t start_ = 0;
+    std::vector<std::uint32_t> arrivals_; ///< the half-edge of the route that ends at each copy; kNone at a start
 };
 
 dvec3 centerOf(const CutMesh& mesh, std::uint32_t triangle) {
@@ -129,22 +132,50 @@ void cutRoute(CutMesh& mesh, const Route& route) {
 /// Between two points of a closed surface that are far apart.
 void cutSphere(CutMesh& mesh) {
     const Disk whole = cutOpen(mesh);
-    const std::uint32_t a = RouteSearch(mesh, whole).search(0, kFar, {});
+    const std::uint32_t first = RouteSearch(mesh, whole).search(std::array{0u}, kFar, {});
     RouteSearch search(mesh, whole);
-    cutRoute(mesh, search.routeTo(search.search(a, kFar, {})));
+    cutRoute(mesh, search.routeTo(search.search(std::array{first}, kFar, {})));
 }
 
-/// Replaces one path by a shorter one on its side of the cut. False where there is none.
-bool shortenPath(CutMesh& mesh, const Disk& disk, const BorderPath& path) {
-    const std::uint32_t start = disk.corners[path.halfEdges.front()];
-    const std::uint32_t end = disk.corners[nextOf(path.halfEdges.back())];
-    if (start == end) return false;
-    RouteSearch search(mesh, disk);
-    constexpr double kGain = 1 - 1e-6;
-    if (search.search(start, kGain * path.length, [end](std::uint32_t v) { return v == end; }) == kNone) return false;
+/// Marks the copies along the closed chain of border edges that an edge belongs to.
+void markChain(const CutMesh& mesh, const Disk& disk, std::uint32_t h, std::vector<char>& isMarked) {
+    isMarked.assign(disk.vertexCount(), 0);
+    for (std::uint32_t at = h; isMarked[disk.corners[at]] == 0;) {
+        isMarked[disk.corners[at]] = 1;
+        for (at = nextOf(at); !mesh.isBorder(at);) at = nextOf(mesh.twins[at]);
+    }
+}
+
+/// Replaces a path of the border by the shortest route that makes a disk as well. False where there is none.
+bool shortenPath(CutMesh& mesh, std::span<const BorderPath> paths, std::size_t p) {
+    const BorderPath& path = paths[p];
+    const std::size_t after = (p + 1) % paths.size(), afterMate = (path.mate + 1) % paths.size();
+    const bool endsInside = after == path.mate, startsInside = afterMate == p;
+    if (endsInside && startsInside) return false; // the only path of a sphere
     for (const std::uint32_t h : path.halfEdges) mesh.setCut(h, false);
-    cutRoute(mesh, search.routeTo(end));
-    return true;
+    const Disk ring = cutOpen(mesh);
+    // Without the path the border is two chains, or one and the end of the path inside of it.
+    std::vector<char> isGoal;
+    std::vector<std::uint32_t> starts;
+    if (endsInside || startsInside) {
+        const std::uint32_t h = endsInside ? nextOf(path.halfEdges.back()) : path.halfEdges.front();
+        starts.push_back(ring.corners[h]);
+        isGoal = ring.isOnBorder;
+    } else {
+        markChain(mesh, ring, paths[after].halfEdges.front(), isGoal);
+        for (std::uint32_t v = 0; v < ring.vertexCount(); ++v)
+            if (isGoal[v] != 0) starts.push_back(v);
+        markChain(mesh, ring, paths[afterMate].halfEdges.front(), isGoal);
+    }
+    RouteSearch search(mesh, ring);
+    constexpr double kGain = 1 - 1e-6;
+    const std::uint32_t end =
+        search.search(starts, kGain * path.length, [&](std::uint32_t v) { return isGoal[v] != 0; });
+    if (end == kNone)
+        for (const std::uint32_t h : path.halfEdges) mesh.setCut(h, true);
+    else
+        cutRoute(mesh, search.routeTo(end));
+    return end != kNone;
 }
 
 } // namespace
@@ -158,27 +189,22 @@ void cutToDisk(CutMesh& mesh) {
 }
 
 void shortenPaths(CutMesh& mesh) {
-    constexpr int kRounds = 4;
-    constexpr std::size_t kManyPaths = 400; // of which each costs a walk over the surface
-    bool isShorter = true;
-    for (int round = 0; round < kRounds && isShorter; ++round) {
-        isShorter = false;
-        Disk disk = cutOpen(mesh);
-        std::vector<BorderPath> paths = walkBorder(mesh, disk);
-        const std::size_t count = std::min(paths.size(), kManyPaths);
-        for (std::size_t i = 0; i < count; ++i) {
-            if (paths[i].mate == i || !shortenPath(mesh, disk, paths[i])) continue;
-            isShorter = true;
-            disk = cutOpen(mesh);
-            paths = walkBorder(mesh, disk);
-            RELIEF_CHECK(paths.size() >= count);
-        }
+    constexpr int kMostSearches = 600; // each walks over the surface
+    std::vector<BorderPath> paths = walkBorder(mesh, cutOpen(mesh));
+    // One path after another, until none has become shorter since it was looked at.
+    std::size_t unchanged = 0;
+    for (int searches = 0; searches < kMostSearches && unchanged < paths.size(); ++searches) {
+        const std::size_t p = std::size_t(searches) % paths.size();
+        ++unchanged;
+        if (paths[p].mate == p || !shortenPath(mesh, paths, p)) continue;
+        paths = walkBorder(mesh, cutOpen(mesh));
+        unchanged = 0;
     }
 }
 
 Route findRouteToBorder(const CutMesh& mesh, const Disk& disk, std::uint32_t start) {
     RouteSearch search(mesh, disk);
-    const std::uint32_t end = search.search(start, kFar, [&](std::uint32_t v) { return disk.isOnBorder[v] != 0; });
+    const std::uint32_t end = search.search(std::array{start}, kFar, [&](std::uint32_t v) { return disk.isOnBorder[v] != 0; });
     return end == kNone ? Route{} : search.routeTo(end);
 }
 

@@ -16,8 +16,8 @@ struct Route {
 /// is cut from one of its extreme points to another. Boundaries are borders already.
 void cutToDisk(CutMesh& mesh);
 
-/// Replaces paths of the cut by shorter ones that make a disk as well: a route through the disk between the ends of a
-/// path cuts off a piece, which is glued to the other side of the path.
+/// Replaces paths of the cut by shorter ones that make a disk as well. Without a path the disk is a ring, which any
+/// route between its two borders cuts open again: the shortest one is taken, wherever it begins and ends.
 void shortenPaths(CutMesh& mesh);
 
 /// The shortest route along edges inside of the disk from a copy to the border; empty where there is none.

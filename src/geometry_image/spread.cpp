@@ -144,20 +144,24 @@ std::vector<dvec2> placeOnCircle(const CutMesh& mesh, const Disk& disk, std::spa
 SpreadMap spreadInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2> border, int steps) {
     InnerSystem system(mesh, disk);
     std::vector<double> divisors(disk.vertexCount(), 1);
-    std::vector<dvec2> st = std::move(border);
-    system.solve(st, divisors);
-    Stretch stretch = measureStretch(mesh, disk, st);
-    SpreadMap best{st, stretch.total, stretch.total};
+    SpreadMap best{.st = std::move(border)};
+    system.solve(best.st, divisors);
+    Stretch stretch = measureStretch(mesh, disk, best.st);
+    best.stretch = best.firstStretch = stretch.total;
+    // Steps that make the stretch larger are taken back and made half as long.
+    constexpr double kShortest = 0.05, kLeastGain = 2e-3;
     double power = 1;
-    for (int step = 0; step < steps; ++step) {
-        // Within a range that leaves the equations solvable.
-        for (std::uint32_t v = 0; v < disk.vertexCount(); ++v)
-            divisors[v] = std::clamp(divisors[v] * std::pow(std::clamp(stretch.perVertex[v], 1e-3, 1e3), power), 1e-6, 1e6);
-        system.solve(st, divisors);
-        stretch = measureStretch(mesh, disk, st);
-        const double gain = best.stretch - stretch.total;
-        if (gain > 0) best.st = st, best.stretch = stretch.total;
-        if (gain < 1e-3 * best.stretch && (power /= 2) < 0.2) break;
+    for (int step = 0; step < steps && power > kShortest; ++step) {
+        std::vector<double> tried(divisors);
+        for (std::uint32_t v = 0; v < disk.vertexCount(); ++v) // within a range that leaves the equations solvable
+            tried[v] = std::clamp(tried[v] * std::pow(std::clamp(stretch.perVertex[v], 1e-3, 1e3), power), 1e-6, 1e6);
+        std::vector<dvec2> st = best.st;
+        system.solve(st, tried);
+        Stretch found = measureStretch(mesh, disk, st);
+        if (found.total > (1 - kLeastGain) * best.stretch) power /= 2;
+        if (found.total >= best.stretch) continue;
+        best.st = std::move(st), best.stretch = found.total;
+        stretch = std::move(found), divisors = std::move(tried);
     }
     return best;
 }
