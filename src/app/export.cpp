@@ -36,9 +36,13 @@ Exported sew(const ExportArgs& args) {
     const double start = secondsNow();
     const ObjectDesc& desc = args.scene.object;
     if (desc.subdivision || !desc.height.path.empty() || !desc.height.function.empty() || !desc.motion.isStill())
-        fail(Failure::usage, "{}: the triangles of a geometry image are exported as they are, without heights and poses",
-             desc.cage);
-    Exported exported{.mesh = toMesh(readGeometryImage(desc.cage), desc.mip.value_or(0))};
+        fail(Failure::usage,
+             "{}: the triangles of a geometry image are exported as they are, without heights and poses", desc.cage);
+    const GeometryImage image = readGeometryImage(desc.cage);
+    if (desc.mip.value_or(0) >= image.mipCount())
+        fail(Failure::usage, "{}: --mip {} is none of its mips, which are 0 to {}", desc.cage, *desc.mip,
+             image.mipCount() - 1);
+    Exported exported{.mesh = toMesh(image, desc.mip.value_or(0))};
     exported.sampleCount = exported.mesh.positions.size();
     checkMeshSize(args.target, exported.sampleCount, exported.mesh.indices.size() / 3, false);
     exported.loadSeconds = secondsNow() - start;
@@ -122,7 +126,7 @@ void report(const ExportArgs& args, const Exported& exported) {
 int exportMesh(const ExportArgs& args) {
     checkMeshPath(args.target);
     checkOutput(args.target, listFiles(args.scene));
-    Exported exported = isGeometryImageFile(args.scene.object.cage) ? sew(args) : dice(args);
+    Exported exported = lowerExtension(args.scene.object.cage) == ".exr" ? sew(args) : dice(args);
     // OBJ has each position once already, and texture coordinates beside it.
     if (args.weldsPositions && lowerExtension(args.target) != ".obj") exported.mesh = weldPositions(exported.mesh);
     malloc_trim(0);

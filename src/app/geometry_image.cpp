@@ -21,7 +21,7 @@ namespace {
 
 struct GeometryImageArgs {
     ObjectDesc object;
-    std::string target, device;
+    std::string target, picture, device;
     int size = GeometryImageOptions().size;
     std::optional<int> rate;
     bool isHalf = false;
@@ -92,6 +92,14 @@ DenseMesh loadSource(const GeometryImageArgs& args, const Warn& warn) {
     return diceObject(args, std::move(object), warn);
 }
 
+/// The normals as colors: what the square shows.
+void writeNormals(const std::string& path, const GeometryImage& image) {
+    Image picture{.width = image.size, .height = image.size, .channels = 3, .texels = {}};
+    for (const vec3& n : image.normals)
+        for (int axis = 0; axis < 3; ++axis) picture.texels.push_back(0.5f + 0.5f * n[axis]);
+    writeImage(path, picture, SampleType::uint8);
+}
+
 /// Measures the file as it was written against the source.
 void measure(const GeometryImageArgs& args, const DenseMesh& source, GeometryImageFacts& facts) {
     const GeometryImage image = readGeometryImage(args.target);
@@ -127,9 +135,10 @@ std::string toText(const GeometryImageArgs& args, const GeometryImageFacts& fact
         text += fmt::format("{:<18} RMS {:.4g}, tolerance {:.4g}\n", facts.passes() ? "PASS" : "FAIL", facts.rms(),
                             *facts.tolerance);
     if (args.output.isVerbose)
-        text += fmt::format("source {:.0f} ms, spreading {:.0f} ms, sampling and writing {:.0f} ms, measuring {:.0f} ms\n",
-                            1e3 * facts.sourceSeconds, 1e3 * facts.spreadSeconds, 1e3 * facts.sampleSeconds,
-                            1e3 * facts.measureSeconds);
+        text +=
+            fmt::format("source {:.0f} ms, spreading {:.0f} ms, sampling and writing {:.0f} ms, measuring {:.0f} ms\n",
+                        1e3 * facts.sourceSeconds, 1e3 * facts.spreadSeconds, 1e3 * facts.sampleSeconds,
+                        1e3 * facts.measureSeconds);
     return text;
 }
 
@@ -175,6 +184,10 @@ int makeImage(const GeometryImageArgs& args) {
     if (lowerExtension(args.target) != ".exr")
         fail(Failure::usage, "{}: a geometry image is written as .exr", args.target);
     checkOutput(args.target, listFiles(args.object));
+    if (!args.picture.empty()) {
+        if (lowerExtension(args.picture) != ".png") fail(Failure::usage, "{}: --picture writes a .png", args.picture);
+        checkOutput(args.picture, listFiles(args.object));
+    }
     const Warn warn = makeWarn(args.output.isQuiet);
     GeometryImageFacts facts;
     DenseMesh source;
@@ -189,7 +202,9 @@ int makeImage(const GeometryImageArgs& args) {
     });
     facts.spread = surface->report();
     facts.sampleSeconds = timed([&] {
-        writeGeometryImage(args.target, surface->sample(args.size), args.isHalf ? SampleType::half : SampleType::real);
+        const GeometryImage image = surface->sample(args.size);
+        writeGeometryImage(args.target, image, args.isHalf ? SampleType::half : SampleType::real);
+        if (!args.picture.empty()) writeNormals(args.picture, image);
     });
     surface.reset();
     facts.bytes = std::filesystem::file_size(args.target);
@@ -214,10 +229,10 @@ Run addGeometryImage(CLI::App& app) {
     addTime(app, args->object.motion);
     const char* group = "geometry image";
     app.add_option("-o,--output", args->target, "image to write: .exr")->required()->option_text("IMAGE");
-    listIn(group, "N",
-           app.add_option("--size", args->size,
-                          "samples per side; those of the form 2^k m + 1 have mips (default: 257)")
-               ->check(CLI::Range(17, kLargestGeometryImage)));
+    listIn(
+        group, "N",
+        app.add_option("--size", args->size, "samples per side; those of the form 2^k m + 1 have mips (default: 257)")
+            ->check(CLI::Range(17, kLargestGeometryImage)));
     listIn(group, "N",
            app.add_option("--rate", args->rate,
                           "segments per edge that a cage is diced with before it is spread (default: twice as many "
@@ -226,19 +241,24 @@ Run addGeometryImage(CLI::App& app) {
     listIn(group, "", app.add_flag("--half", args->isHalf, "16-bit floats, relative to the box around the surface"));
     listIn(group, "D",
            app.add_option_function<std::string>(
-                  "--tolerance", [args = args.get()](const std::string& word) { args->tolerance = parseDistance(word); },
+                  "--tolerance",
+                  [args = args.get()](const std::string& word) { args->tolerance = parseDistance(word); },
                   "largest RMS distance between image and surface, either way: cage units, or a percentage of the "
                   "diagonal; exit code 6 where it is larger")
                ->check(distanceFromZero()));
+    listIn(
+        group, "PICTURE",
+        app.add_option("--picture", args->picture, "picture to write of the normals over the square, as colors: .png"));
     addDevice(app, args->device);
     addOutput(app, args->output);
-    app.footer("The surface is cut open to a disk and spread over a square; the image holds its points and normals, and\n"
-               "how its border is sewn. render, animate, view and export read it, info describes it.\n"
-               "examples:\n"
-               "  relief geometry-image bunny.ply -o bunny.exr --size 513\n"
-               "  relief geometry-image cage.obj --height map.exr --rate 32 -o gi.exr\n"
-               "  relief render gi.exr -o picture.png\n"
-               "  relief export gi.exr --mip 2 -o coarse.ply");
+    app.footer(
+        "The surface is cut open to a disk and spread over a square; the image holds its points and normals, and\n"
+        "how its border is sewn. render, animate, view and export read it, info describes it.\n"
+        "examples:\n"
+        "  relief geometry-image bunny.ply -o bunny.exr --size 513\n"
+        "  relief geometry-image cage.obj --height map.exr --rate 32 -o gi.exr\n"
+        "  relief render gi.exr -o picture.png\n"
+        "  relief export gi.exr --mip 2 -o coarse.ply");
     return [args] { return makeImage(*args); };
 }
 

@@ -25,8 +25,9 @@ int chooseSide(const CutMesh& mesh, std::span<const BorderPath> paths, int size,
     int side = size - 1;
     while (side % 2 == 0 && side / 2 >= kFewest && 2 * needed <= 4 * (side / 2)) side /= 2;
     if (needed > 4 * side)
-        fail(Failure::input, "{}: its cut has {} paths, for which an image of {} samples per side is too small; use --size {}",
-             name, paths.size(), size, std::bit_ceil(unsigned(needed)) / 2 + 1);
+        fail(Failure::input,
+             "{}: its cut has {} paths, for which an image of {} samples per side is too small; use --size {}", name,
+             paths.size(), size, std::bit_ceil(unsigned(needed)) / 2 + 1);
     return side;
 }
 

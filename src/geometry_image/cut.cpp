@@ -204,7 +204,8 @@ void shortenPaths(CutMesh& mesh) {
 
 Route findRouteToBorder(const CutMesh& mesh, const Disk& disk, std::uint32_t start) {
     RouteSearch search(mesh, disk);
-    const std::uint32_t end = search.search(std::array{start}, kFar, [&](std::uint32_t v) { return disk.isOnBorder[v] != 0; });
+    const std::uint32_t end =
+        search.search(std::array{start}, kFar, [&](std::uint32_t v) { return disk.isOnBorder[v] != 0; });
     return end == kNone ? Route{} : search.routeTo(end);
 }
 

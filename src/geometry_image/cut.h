@@ -20,6 +20,10 @@ void cutToDisk(CutMesh& mesh);
 /// route between its two borders cuts open again: the shortest one is taken, wherever it begins and ends.
 void shortenPaths(CutMesh& mesh);
 
+/// Moves the vertices of paths along the surface, where it is nearly flat around them, so that paths along edges become
+/// smooth: between samples that are farther apart than its corners, a zigzag would fold.
+void smoothPaths(CutMesh& mesh);
+
 /// The shortest route along edges inside of the disk from a copy to the border; empty where there is none.
 Route findRouteToBorder(const CutMesh& mesh, const Disk& disk, std::uint32_t start);
 

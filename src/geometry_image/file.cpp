@@ -74,7 +74,8 @@ void checkSewn(const GeometryImage& image, const std::string& path) {
     const SewnGrid grid = sewGrid(image, 0);
     for (std::size_t sample = 0; sample < grid.vertices.size(); ++sample) {
         const std::uint32_t first = grid.samples[grid.vertices[sample]];
-        if (image.positions[sample] == image.positions[first] && image.normals[sample] == image.normals[first]) continue;
+        if (image.positions[sample] == image.positions[first] && image.normals[sample] == image.normals[first])
+            continue;
         const auto size = std::size_t(image.size);
         fail(Failure::input,
              "{}: the samples in column {}, row {} and column {}, row {} (from 0, top left) are sewn together and "
@@ -114,15 +115,15 @@ GeometryImage readGeometryImageInfo(const ImageInfo& info, const std::string& na
     GeometryImage image{.size = info.width};
     const std::optional<Sewing> sewing = parseSewing(textOf(info, kSewingAttribute), image.size);
     if (!sewing)
-        fail(Failure::input, "{}: its header does not say how a border of {} samples per side is sewn; it has been resized "
-                             "or cut",
+        fail(Failure::input,
+             "{}: its header does not say how a border of {} samples per side is sewn; it has been resized "
+             "or cut",
              name, image.size);
     image.sewing = *sewing;
     if (const std::string origin = textOf(info, kOriginAttribute); !origin.empty()) {
         const std::vector<double> numbers = numbersOf<double>(origin);
-        const bool isGood = numbers.size() == 4 && numbers[3] >= kSmallestSide && std::ranges::all_of(numbers, [](double x) {
-                                return std::abs(x) <= kFarthestCoordinate;
-                            });
+        const bool isGood = numbers.size() == 4 && numbers[3] >= kSmallestSide &&
+                            std::ranges::all_of(numbers, [](double x) { return std::abs(x) <= kFarthestCoordinate; });
         if (!isGood)
             fail(Failure::input, "{}: its header does not say where its positions lie: '{}'", name, onOneLine(origin));
         image.coordinates = {.origin = {numbers[0], numbers[1], numbers[2]}, .unit = numbers[3]};
@@ -151,8 +152,7 @@ GeometryImage readGeometryImage(const std::string& path) {
 }
 
 void writeGeometryImage(const std::string& path, const GeometryImage& image, SampleType sample) {
-    if (lowerExtension(path) != ".exr")
-        fail(Failure::usage, "{}: a geometry image is written as .exr", path);
+    if (lowerExtension(path) != ".exr") fail(Failure::usage, "{}: a geometry image is written as .exr", path);
     const Coordinates coordinates = sample == SampleType::half ? unitBoxOf(image) : image.coordinates;
     Image picture{.width = image.size, .height = image.size, .channels = int(kChannels.size()), .texels = {}};
     picture.texels.reserve(6 * image.positions.size());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "geometry_image/border.h"
 #include "geometry_image/cut.h"
@@ -12,24 +13,23 @@
 namespace relief {
 namespace {
 
-constexpr int kMostExtremes = 14;    ///< paths that are added to a cut
+constexpr int kMostExtremes = 20;    ///< paths that are added to a cut
 constexpr double kWorthAPath = 0.95; ///< a path stays where it takes the stretch below this share of itself
+constexpr int kMostIdle = 2;         ///< paths in a row that do not help
 constexpr int kStretchSteps = 24;
 
 /// Extends the cut through the points that the map over a disk stretches most, one after another, while that makes the
-/// stretch smaller (Gu et al. 2002, section 3.2).
+/// stretch smaller (Gu et al. 2002, section 3.2). A path that does not help may lead to one that does.
 void cutThroughExtremes(CutMesh& mesh, Progress& progress) {
-    std::vector<char> before = mesh.isCut;
-    double least = 0;
-    for (int extremes = 0; extremes <= kMostExtremes; ++extremes) {
+    std::vector<char> best = mesh.isCut;
+    double least = std::numeric_limits<double>::infinity();
+    for (int extremes = 0, idle = 0; extremes <= kMostExtremes; ++extremes) {
         const Disk disk = cutOpen(mesh);
         const SpreadMap map = spreadInside(mesh, disk, placeOnCircle(mesh, disk, walkBorder(mesh, disk)), 0);
         progress.advance();
-        if (extremes > 0 && map.stretch > kWorthAPath * least) {
-            mesh.isCut = before;
-            return;
-        }
-        least = map.stretch, before = mesh.isCut;
+        idle = map.stretch > kWorthAPath * least ? idle + 1 : 0;
+        if (idle == 0) least = map.stretch, best = mesh.isCut;
+        if (idle == kMostIdle) break;
         // From the vertex inside that is stretched most.
         const Stretch stretch = measureStretch(mesh, disk, map.st);
         std::uint32_t extreme = kNone;
@@ -37,9 +37,10 @@ void cutThroughExtremes(CutMesh& mesh, Progress& progress) {
             if (disk.isOnBorder[v] == 0 && (extreme == kNone || stretch.perVertex[v] > stretch.perVertex[extreme]))
                 extreme = v;
         const Route route = extreme == kNone ? Route{} : findRouteToBorder(mesh, disk, extreme);
-        if (route.halfEdges.empty() || extremes == kMostExtremes) return;
+        if (route.halfEdges.empty()) break;
         for (const std::uint32_t h : route.halfEdges) mesh.setCut(h, true);
     }
+    mesh.isCut = best;
 }
 
 /// The point of the border at a share of a path, on its edges.
@@ -100,7 +101,8 @@ struct SpreadSurface::Parts {
 SpreadSurface::SpreadSurface(const DenseMesh& mesh, const std::string& name, const GeometryImageOptions& options)
     : parts_(std::make_unique<Parts>()) {
     if (options.size < 17 || options.size > kLargestGeometryImage)
-        fail(Failure::usage, "a geometry image has 17 to {} samples per side, not {}", kLargestGeometryImage, options.size);
+        fail(Failure::usage, "a geometry image has 17 to {} samples per side, not {}", kLargestGeometryImage,
+             options.size);
     Progress progress("spreading", kMostExtremes + 6, options.progress);
     Parts& parts = *parts_;
     parts.coordinates = mesh.coordinates, parts.name = name;
@@ -122,6 +124,7 @@ SpreadSurface::SpreadSurface(const DenseMesh& mesh, const std::string& name, con
     progress.advance();
     cutThroughExtremes(cut, progress);
     shortenPaths(cut);
+    smoothPaths(cut);
 
     // The square.
     parts.border = fitSquare(cut, options.size, name);
@@ -142,8 +145,9 @@ GeometryImage SpreadSurface::sample(int size) const {
     const Parts& parts = *parts_;
     const int side = sideSegments();
     if (size < 2 || size > kLargestGeometryImage || (size - 1) % side != 0)
-        fail(Failure::usage, "{}: an image of {} samples per side does not fit its border, which has {} segments per side",
-             parts.name, size, side);
+        fail(Failure::usage,
+             "{}: an image of {} samples per side does not fit its border, which has {} segments per side", parts.name,
+             size, side);
     GeometryImage image{.size = size, .sewing = parts.border.sewing, .coordinates = parts.coordinates};
     const auto count = std::size_t(size) * std::size_t(size);
     image.positions.resize(count), image.normals.resize(count);

@@ -53,9 +53,9 @@ struct GeometryImageOptions {
 struct GeometryImageReport {
     std::uint64_t triangles = 0;
     int genus = 0, boundaryCount = 0;
-    int pathCount = 0;     ///< of the cut, without boundaries
-    double cutLength = 0;  ///< in units of the positions
-    double stretch = 0;    ///< root mean square stretch L2 of Sander et al. 2001; 1 is the least that there is
+    int pathCount = 0;       ///< of the cut, without boundaries
+    double cutLength = 0;    ///< in units of the positions
+    double stretch = 0;      ///< root mean square stretch L2 of Sander et al. 2001; 1 is the least that there is
     double firstStretch = 0; ///< the same before it is made smaller
 };
 

@@ -149,8 +149,7 @@ SewnGrid sewGrid(const GeometryImage& image, int mip) {
         const std::uint32_t root = sewer.rootOf(sample);
         if (root == sample) {
             grid.vertices[sample] = std::uint32_t(grid.samples.size());
-            grid.samples.push_back(
-                std::uint32_t(sample / n * step * std::size_t(image.size) + sample % n * step));
+            grid.samples.push_back(std::uint32_t(sample / n * step * std::size_t(image.size) + sample % n * step));
         } else {
             grid.vertices[sample] = grid.vertices[root]; // roots come first
         }

@@ -46,10 +46,11 @@ void joinTwins(CutMesh& mesh, const std::string& name, const Coordinates& coordi
              "{}: {} edges have more than two triangles, the first is at {}; a geometry image needs a manifold", name,
              crowded, describeVertex(mesh, mesh.from(crowdedAt), coordinates));
     if (turned > 0)
-        fail(Failure::input,
-             "{}: the triangles at {} edges are wound against each other, first at {}; a geometry image needs a surface "
-             "with two sides",
-             name, turned, describeVertex(mesh, mesh.from(turnedAt), coordinates));
+        fail(
+            Failure::input,
+            "{}: the triangles at {} edges are wound against each other, first at {}; a geometry image needs a surface "
+            "with two sides",
+            name, turned, describeVertex(mesh, mesh.from(turnedAt), coordinates));
 }
 
 /// Each vertex has one fan of triangles: as many half-edges as walking around it meets.

@@ -20,12 +20,13 @@ inline DenseMesh gridMesh(std::uint32_t columns, std::uint32_t rows, const Point
     DenseMesh mesh;
     const std::uint32_t across = wrapsS ? columns : columns + 1, down = wrapsT ? rows : rows + 1;
     for (std::uint32_t j = 0; j < down; ++j)
-        for (std::uint32_t i = 0; i < across; ++i) mesh.positions.emplace_back(point(double(i) / columns, double(j) / rows));
+        for (std::uint32_t i = 0; i < across; ++i)
+            mesh.positions.emplace_back(point(double(i) / columns, double(j) / rows));
     const auto at = [&](std::uint32_t i, std::uint32_t j) { return j % down * across + i % across; };
     for (std::uint32_t j = 0; j < rows; ++j)
         for (std::uint32_t i = 0; i < columns; ++i)
-            mesh.indices.insert(mesh.indices.end(), {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1),
-                                                     at(i, j + 1)});
+            mesh.indices.insert(mesh.indices.end(),
+                                {at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     return mesh;
 }
 
@@ -65,7 +66,8 @@ inline DenseMesh torusMesh(std::uint32_t n) {
         n, n / 2,
         [](double s, double t) {
             const double a = 2 * std::numbers::pi * s, b = 2 * std::numbers::pi * t;
-            return dvec3((1 + 0.4 * std::cos(b)) * std::cos(a), (1 + 0.4 * std::cos(b)) * std::sin(a), 0.4 * std::sin(b));
+            return dvec3((1 + 0.4 * std::cos(b)) * std::cos(a), (1 + 0.4 * std::cos(b)) * std::sin(a),
+                         0.4 * std::sin(b));
         },
         true, true);
 }
