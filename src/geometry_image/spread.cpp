@@ -34,8 +34,34 @@ TriangleStretch measureTriangle(const CutMesh& mesh, const Disk& disk, std::span
     return result;
 }
 
-/// Mean value weights of both ends of each edge, added up; per half-edge that has no twin before it.
-std::vector<double> computeWeights(const CutMesh& mesh) {
+/// Adds up what both half-edges of an edge have.
+void joinHalves(const CutMesh& mesh, std::vector<double>& values) {
+    for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h)
+        if (const std::uint32_t twin = mesh.twins[h]; twin != kNone && h < twin)
+            values[h] = values[twin] = values[h] + values[twin];
+}
+
+/// Cotangents of the angles opposite to each edge, which reproduce what is flat (Pinkall and Polthier 1993); empty
+/// where one of the sums is negative.
+std::vector<double> computeCotangents(const CutMesh& mesh) {
+    std::vector<double> weights(mesh.halfEdgeCount(), 0);
+    for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) {
+        const dvec3 a = mesh.positions[mesh.to(h)] - mesh.positions[mesh.from(h)];
+        const dvec3 b = mesh.positions[mesh.from(previousOf(h))] - mesh.positions[mesh.from(h)];
+        const double sine = glm::length(glm::cross(a, b));
+        if (!(sine > 1e-3 * glm::length(a) * glm::length(b))) return {};
+        weights[nextOf(h)] = glm::dot(a, b) / sine;
+    }
+    joinHalves(mesh, weights);
+    constexpr double kRounding = 1e-6;
+    for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h)
+        if (mesh.twins[h] != kNone && weights[h] < -kRounding) return {};
+    for (double& weight : weights) weight = std::max(weight, 0.0);
+    return weights;
+}
+
+/// Mean value weights of both ends of each edge, added up.
+std::vector<double> computeMeanValues(const CutMesh& mesh) {
     double sum = 0;
     for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) sum += mesh.length(h);
     const double shortest = 1e-6 * sum / double(mesh.halfEdgeCount());
@@ -51,10 +77,13 @@ std::vector<double> computeWeights(const CutMesh& mesh) {
         weights[h] += half / la;
         weights[before] += half / lb;
     }
-    for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h)
-        if (const std::uint32_t twin = mesh.twins[h]; twin != kNone && h < twin)
-            weights[h] = weights[twin] = weights[h] + weights[twin];
+    joinHalves(mesh, weights);
     return weights;
+}
+
+std::vector<double> computeWeights(const CutMesh& mesh) {
+    std::vector<double> cotangents = computeCotangents(mesh);
+    return cotangents.empty() ? computeMeanValues(mesh) : cotangents;
 }
 
 /// The equations of the copies inside: sum over j of w_ij (p_j - p_i) = 0.
