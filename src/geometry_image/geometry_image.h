@@ -83,8 +83,8 @@ private:
 
 // --- as a mesh ----------------------------------------------------------------------------------------------------
 
-/// The triangles of one mip: two per quad of the grid, along its shorter diagonal. Where the sewn border would make two
-/// edges between the same vertices of these, the other diagonal is taken.
+/// The triangles of one mip: two per quad of the grid, along its shorter diagonal. The other one is taken where the
+/// triangles then look along the normals, and where the sewn border would make two edges between the same vertices.
 struct SewnGrid {
     std::vector<std::uint32_t> vertices; ///< per sample of the mip: its vertex; those that are sewn have the same one
     std::vector<std::uint32_t> samples;  ///< per vertex: the first sample of the picture that is this vertex

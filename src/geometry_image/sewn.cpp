@@ -41,7 +41,34 @@ private:
     std::vector<std::uint32_t> parents_;
 };
 
-/// Chooses the diagonals of a grid: the shorter one, or at the border the one that no other edge equals.
+/// A sample of a quad, in double precision.
+struct QuadCorner {
+    dvec3 position, normal;
+};
+
+/// The smallest cosine between the normal of a triangle and those of its corners.
+double worstCosine(const QuadCorner& a, const QuadCorner& b, const QuadCorner& c) {
+    const dvec3 normal = glm::cross(b.position - a.position, c.position - a.position);
+    const double length = glm::length(normal);
+    if (!(length > 0)) return -1;
+    return std::min({glm::dot(normal, a.normal), glm::dot(normal, b.normal), glm::dot(normal, c.normal)}) / length;
+}
+
+/// Whether a quad is cut from its upper left to its lower right corner: along the shorter diagonal, unless its
+/// triangles face away from the normals and those of the other do not, as where the grid is sheared on a bent surface.
+bool cutsFalling(const QuadCorner& topLeft, const QuadCorner& topRight, const QuadCorner& bottomLeft,
+                 const QuadCorner& bottomRight) {
+    const dvec3 falling = bottomRight.position - topLeft.position, rising = topRight.position - bottomLeft.position;
+    const bool isShorter = glm::dot(falling, falling) <= glm::dot(rising, rising);
+    const double withFalling =
+        std::min(worstCosine(topLeft, bottomLeft, bottomRight), worstCosine(topLeft, bottomRight, topRight));
+    const double withRising =
+        std::min(worstCosine(bottomLeft, bottomRight, topRight), worstCosine(bottomLeft, topRight, topLeft));
+    constexpr double kGood = 0.9;
+    return std::min(withFalling, withRising) > kGood ? isShorter : withFalling >= withRising;
+}
+
+/// Chooses the diagonals of a grid, at the border one that no other edge equals.
 class Diagonals {
 public:
     Diagonals(const GeometryImage& image, const SewnGrid& grid, int size)
@@ -49,10 +76,10 @@ public:
         for (std::size_t j = 0; j + 1 < size_; ++j)
             for (std::size_t i = 0; i + 1 < size_; ++i) {
                 const auto at = [&](std::size_t x, std::size_t y) {
-                    return dvec3(image.positions[grid.samples[grid.vertices[(j + y) * size_ + i + x]]]);
+                    const std::uint32_t sample = grid.samples[grid.vertices[(j + y) * size_ + i + x]];
+                    return QuadCorner{dvec3(image.positions[sample]), dvec3(image.normals[sample])};
                 };
-                const dvec3 falling = at(1, 1) - at(0, 0), rising = at(1, 0) - at(0, 1);
-                falls_[j * (size_ - 1) + i] = char(glm::dot(falling, falling) <= glm::dot(rising, rising));
+                falls_[j * (size_ - 1) + i] = char(cutsFalling(at(0, 0), at(1, 0), at(0, 1), at(1, 1)));
             }
     }
 
