@@ -15,21 +15,20 @@ namespace {
 
 constexpr int kMostExtremes = 20;    ///< paths that are added to a cut
 constexpr double kWorthAPath = 0.95; ///< a path stays where it takes the stretch below this share of itself
-constexpr int kMostIdle = 2;         ///< paths in a row that do not help
 constexpr int kStretchSteps = 24;
+constexpr int kSweeps = 40;
 
 /// Extends the cut through the points that the map over a disk stretches most, one after another, while that makes the
-/// stretch smaller (Gu et al. 2002, section 3.2). A path that does not help may lead to one that does.
+/// stretch smaller (Gu et al. 2002, section 3.2).
 void cutThroughExtremes(CutMesh& mesh, Progress& progress) {
     std::vector<char> best = mesh.isCut;
     double least = std::numeric_limits<double>::infinity();
-    for (int extremes = 0, idle = 0; extremes <= kMostExtremes; ++extremes) {
+    for (int extremes = 0; extremes <= kMostExtremes; ++extremes) {
         const Disk disk = cutOpen(mesh);
         const SpreadMap map = spreadInside(mesh, disk, placeOnCircle(mesh, disk, walkBorder(mesh, disk)), 0);
         progress.advance();
-        idle = map.stretch > kWorthAPath * least ? idle + 1 : 0;
-        if (idle == 0) least = map.stretch, best = mesh.isCut;
-        if (idle == kMostIdle) break;
+        if (map.stretch > kWorthAPath * least) break;
+        least = map.stretch, best = mesh.isCut;
         // From the vertex inside that is stretched most.
         const Stretch stretch = measureStretch(mesh, disk, map.st);
         std::uint32_t extreme = kNone;
@@ -123,7 +122,6 @@ SpreadSurface::SpreadSurface(const DenseMesh& mesh, const std::string& name, con
     shortenPaths(cut);
     progress.advance();
     cutThroughExtremes(cut, progress);
-    shortenPaths(cut);
     smoothPaths(cut);
 
     // The square.
@@ -131,6 +129,9 @@ SpreadSurface::SpreadSurface(const DenseMesh& mesh, const std::string& name, con
     for (std::size_t p = 0; p < parts.border.paths.size(); ++p)
         if (parts.border.paths[p].mate > p) ++report.pathCount, report.cutLength += parts.border.paths[p].length;
     parts.map = spreadInside(cut, parts.border.disk, placeOnSquare(cut, parts.border), kStretchSteps);
+    progress.advance();
+    relaxInside(cut, parts.border.disk, parts.map.st, kSweeps);
+    parts.map.stretch = measureStretch(cut, parts.border.disk, parts.map.st).total;
     report.stretch = parts.map.stretch, report.firstStretch = parts.map.firstStretch;
 }
 
