@@ -138,9 +138,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn);
 
 /// Loads the object and the environment of a scene. Warns of subdivision tags on polygons that are drawn themselves.
 LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
-
-/// A scene whose object is a geometry image without a mip, with the coarsest mip whose quads are no longer than a pixel
-/// on average; other scenes as they are. Throws as readGeometryImage does.
+/// The scene with the coarsest mip of a geometry image whose quads are a pixel long at most, where no mip is named.
 SceneDesc withFittingMip(const SceneDesc& desc);
 
 /// Frees what the device holds by now: the surface's tables, maps, textures, dense polygons. The cage and its motion
