@@ -188,6 +188,7 @@ int makeImage(const GeometryImageArgs& args) {
         if (lowerExtension(args.picture) != ".png") fail(Failure::usage, "{}: --picture writes a .png", args.picture);
         checkOutput(args.picture, listFiles(args.object));
     }
+    // The source.
     const Warn warn = makeWarn(args.output.isQuiet);
     GeometryImageFacts facts;
     DenseMesh source;
@@ -195,6 +196,7 @@ int makeImage(const GeometryImageArgs& args) {
     facts.unit = source.coordinates.unit;
     facts.diagonal = computeBounds(source.positions).diagonal() * facts.unit;
     if (args.tolerance) facts.tolerance = args.tolerance->cageUnits(facts.diagonal);
+    // The image, and how far it is from the source.
     std::optional<SpreadSurface> surface;
     facts.spreadSeconds = timed([&] {
         surface.emplace(source, args.object.cage,

@@ -76,6 +76,7 @@ dvec3 centerOf(const CutMesh& mesh, std::uint32_t triangle) {
 /// Cuts all edges but those that a disk crosses as it grows from the first triangle, nearest triangles first.
 void growDisk(CutMesh& mesh) {
     for (std::uint32_t h = 0; h < mesh.halfEdgeCount(); ++h) mesh.isCut[h] = char(mesh.twins[h] != kNone);
+    // Dijkstra's algorithm over triangles, from the centre of one to that of the next.
     std::vector<double> distances(mesh.halfEdgeCount() / 3, kFar);
     std::vector<std::uint32_t> arrivals(distances.size(), kNone);
     std::vector<char> isInside(distances.size(), 0);
@@ -167,6 +168,7 @@ bool shortenPath(CutMesh& mesh, std::span<const BorderPath> paths, std::size_t p
             if (isGoal[v] != 0) starts.push_back(v);
         markChain(mesh, ring, paths[afterMate].halfEdges.front(), isGoal);
     }
+    // From one to the other, if that is shorter.
     RouteSearch search(mesh, ring);
     constexpr double kGain = 1 - 1e-6;
     const std::uint32_t end =

@@ -100,6 +100,7 @@ bool isGeometryImageFile(const std::string& path) {
 }
 
 GeometryImage readGeometryImageInfo(const ImageInfo& info, const std::string& name) {
+    // What kind of picture it is.
     if (!isGeometryImage(info))
         fail(Failure::input, "{}: this picture is no geometry image; relief geometry-image writes one", name);
     if (const std::string version = textOf(info, kVersionAttribute); version != kVersion)
@@ -112,6 +113,7 @@ GeometryImage readGeometryImageInfo(const ImageInfo& info, const std::string& na
     if (info.width != info.height || info.width < 2 || info.width > kLargestGeometryImage)
         fail(Failure::input, "{}: a geometry image is a square of 2 to {} samples per side, not {} x {}", name,
              kLargestGeometryImage, info.width, info.height);
+    // How its border is sewn.
     GeometryImage image{.size = info.width};
     const std::optional<Sewing> sewing = parseSewing(textOf(info, kSewingAttribute), image.size);
     if (!sewing)
@@ -120,6 +122,7 @@ GeometryImage readGeometryImageInfo(const ImageInfo& info, const std::string& na
              "or cut",
              name, image.size);
     image.sewing = *sewing;
+    // Where its positions lie.
     if (const std::string origin = textOf(info, kOriginAttribute); !origin.empty()) {
         const std::vector<double> numbers = numbersOf<double>(origin);
         const bool isGood = numbers.size() == 4 && numbers[3] >= kSmallestSide &&

@@ -152,12 +152,14 @@ GeometryImage SpreadSurface::sample(int size) const {
     GeometryImage image{.size = size, .sewing = parts.border.sewing, .coordinates = parts.coordinates};
     const auto count = std::size_t(size) * std::size_t(size);
     image.positions.resize(count), image.normals.resize(count);
+    // The sewing in segments of this image's own coarsest mip.
     const auto scaleSewing = [&](int factor) {
         image.sewing.sideSegments *= factor, image.sewing.first *= factor;
         for (Sewing::Path& path : image.sewing.paths) path.segments *= factor;
     };
     const auto times = unsigned((size - 1) / side);
     scaleSewing(int(times >> std::countr_zero(times)));
+    // The border, then what is inside.
     sampleBorder(image, parts.mesh, parts.border.paths);
     const std::vector<SurfaceSample> inside = sampleGrid(parts.mesh, parts.border.disk, parts.map.st, size);
     for (int j = 1; j + 1 < size; ++j)

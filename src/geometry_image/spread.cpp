@@ -98,6 +98,7 @@ public:
     /// Moves the inner copies. `divisors`: per copy, what the weights at it are divided by.
     void solve(std::vector<dvec2>& st, std::span<const double> divisors) {
         if (count_ == 0) return;
+        // Neighbours inside are unknowns, those on the border go to the right side.
         std::vector<Eigen::Triplet<double>> entries;
         entries.reserve(mesh_.halfEdgeCount() + count_);
         Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count_, 2);
@@ -114,6 +115,7 @@ public:
                 entries.emplace_back(i, j, -weight);
         }
         for (std::uint32_t i = 0; i < count_; ++i) entries.emplace_back(i, i, diagonal[i]);
+        // The pattern of the matrix is that of the mesh: it is analysed once.
         Eigen::SparseMatrix<double> matrix(count_, count_);
         matrix.setFromTriplets(entries.begin(), entries.end());
         if (!isAnalysed_) solver_.analyzePattern(matrix);
