@@ -91,13 +91,6 @@ struct DisplacedSample {
 #endif
 };
 
-// The drawn face's texture coordinates where the point is evaluated at another face.
-vec2 ownTexCoords(uint face, vec2 uv) {
-    if (!kHasTexCoords) return uv;
-    Leaf leaf = findLeaf(face, uv);
-    return patchFrame(fetchPatch(leaf.patchIndex, inputs.model.pointsNow).texture, leaf.uv).p.xy;
-}
-
 // What slopes along n bend the normal of the drawn surface x by: with m = x_u x x_v, (x_u + a n) x (x_v + b n) = m - |m| (a U + b V) for
 // U = (x_v x n) / |m| and V = (n x x_u) / |m|; by s and t instead of u and v, s_u U + s_v V and t_u U + t_v V. Where the surface is
 // not displaced n is its normal, and these are the gradients of s and t along it. They are 0 where the surface has no two directions: nothing bends the normal there.
@@ -170,19 +163,25 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
     SurfacePoint owners; // of vector maps
     uint count = max(location.incidenceCount, 1u);
     bool isOwn = false;
-    for (uint i = 0u; i < count; ++i) {
+    // One turn more for texture coordinates and their gradients where none of the incidences was of the drawn face: they may
+    // differ from the owner's. A second call beside the loop would be compiled a second time.
+    uint turnCount = kWantsTexCoords || kHasTexGradients ? count + 1u : count;
+    for (uint i = 0u; i < turnCount; ++i) {
+        bool isExtra = i == count;
+        if (isExtra && isOwn) break;
         Incidence incidence = location.owner;
         float share = 1.0;
-        if (location.incidenceCount > 0u) {
+        if (location.incidenceCount > 0u && !isExtra) {
             incidence = fetchIncidence(location.firstIncidence + i);
             if (incidence.start == incidence.end) share = sectorShare(location.firstIncidence + i);
         }
         vec2 uv = location.isInside ? location.uv : incidencePoint(incidence, location.t);
+        if (isExtra) incidence.face = face, uv = faceUV;
         bool isIncidenceOfFace = incidence.face == face && !isOwn;
         bool isUsed = i == 0u || isIncidenceOfFace;
         Leaf leaf = findLeaf(incidence.face, uv);
         SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex, pose), leaf, uv, isUsed);
-        direction += share * point.n;
+        if (!isExtra) direction += share * point.n;
         if (isUsed) {
             isOwn = incidence.face == face;
             Displacement d = displacementAt(point, location.level);
@@ -192,7 +191,8 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
                 ownersNormal = point.n;
                 if (kVectorSpace != kVectorNone) owners = point, c = d.vector.c;
             }
-            addAttributes(s, point, d);
+            if (!isExtra || kHasTexGradients) addAttributes(s, point, d);
+            else s.st = point.tex.st;
         }
     }
     // Normals that cancel (a fin, faces of opposite winding): the owner's.
@@ -200,14 +200,6 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
     precise vec3 q = displacedPoint(s.p, direction, s.h);
     if (kVectorSpace != kVectorNone) q = movedPoint(owners, direction, c);
     s.q = q;
-    if (kHasTexGradients && !isOwn) {
-        // Gradients are those of the drawn face's texture coordinates, which may differ from the owner's.
-        Leaf leaf = findLeaf(face, faceUV);
-        SurfacePoint point = surfacePoint(fetchPatch(leaf.patchIndex, pose), leaf, faceUV, true);
-        addAttributes(s, point, displacementAt(point, location.level));
-    } else if (kWantsTexCoords && !isOwn) {
-        s.st = ownTexCoords(face, faceUV);
-    }
     s.normal = unitOr(s.normal, s.n);
     return s;
 }

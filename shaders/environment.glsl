@@ -14,7 +14,10 @@ vec3 irradiance(vec3 n) {
                             inputs.light.irradiance[7] * (n.x * n.z) + inputs.light.irradiance[8] * (n.x * n.x - n.y * n.y));
 }
 
-vec2 equirectangular(vec3 d) { return vec2(atan(d.x, -d.z) / (2.0 * kPi) + 0.5, acos(clamp(d.y, -1.0, 1.0)) / kPi); }
+// Where the turned environment has a direction: of its columns the angle grows clockwise.
+vec2 equirectangular(vec3 d) {
+    return vec2(atan(d.x, -d.z) / (2.0 * kPi) + 0.5 + inputs.light.environmentTurn, acos(clamp(d.y, -1.0, 1.0)) / kPi);
+}
 
 // Integrated specular albedo: Karis, "Physically Based Shading on Mobile" (2014), his fit of the split sum.
 vec3 environmentBrdf(vec3 f0, float roughness, float nv) {

@@ -12,6 +12,7 @@
 
 layout(constant_id = kIdShow) const uint kShow = kShowShaded;
 layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
+layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false;
 
 #include "techniques.glsl"
 

@@ -30,6 +30,14 @@ vec3 faceColor(uint face) {
     return shown(ivec3(89) + (9 * ivec3(h & 255u, (h >> 8) & 255u, (h >> 16) & 255u) >> 4));
 }
 
+// Each unit square of texture coordinates in 8 x 8 fields, light and dark by turns: s makes them redder, t greener.
+vec3 texCoordColor(vec2 st) {
+    if (!kWantsTexCoords) return shown(ivec3(204)); // there are none
+    ivec2 field = clamp(ivec2(8.0 * fract(st)), 0, 7);
+    ivec3 code = ivec3(45 + 26 * field, 150);
+    return shown(((field.x + field.y) & 1) == 0 ? code : 3 * code / 4);
+}
+
 vec3 albedo() {
     vec3 c = inputs.material.albedo;
     return kHasAlbedoMap ? c * lookUp(albedoMap, inputs.model.albedoTiles, 0.0).rgb : c;
@@ -41,6 +49,7 @@ vec3 techniqueColor() {
     case kShowHeight: return heightColor(inputs.model.heightBound > 0.0 ? vHeight / inputs.model.heightBound : 0.0);
     case kShowRate: return rateColor(float(vRate));
     case kShowFaces: return faceColor(vFace);
+    case kShowTexCoords: return texCoordColor(vTexCoord.xy);
     case kShowWireframe: return shown(ivec3(204, 209, 217)); // the surface under the lines
     default: return albedo();
     }

@@ -151,6 +151,21 @@ std::unique_ptr<Animation> readSkin(const std::string& path, const Cage& cage, c
 /// finite or out of range at that time.
 std::unique_ptr<Animation> deform(std::unique_ptr<Animation> base, const Cage& cage, const std::string& expression);
 
+/// A value of a deformer, as it stands in an expression.
+struct DeformerValue {
+    std::string name, text;       ///< "angle", "90*sin(t)"; the default's text where it is not given
+    bool isGiven = false;         ///< it stands in the expression
+    std::optional<double> number; ///< its value, where the text is a number and nothing else
+};
+struct DeformerText {
+    std::string name;
+    std::vector<DeformerValue> values; ///< all that the deformer has
+};
+/// Takes an expression of deform() apart, for those who change its numbers. Throws as deform() does.
+std::vector<DeformerText> parseDeformers(const std::string& expression);
+/// The expression with the values that are given.
+std::string toExpression(std::span<const DeformerText> deformers);
+
 /// The text for --help: per deformer its values with their defaults, and a line on what it does.
 std::string deformerHelp();
 

@@ -178,6 +178,12 @@ bool TextReader::isAtEnd() {
     return next_ == text_.size();
 }
 
+std::string_view TextReader::takenSince(std::size_t column) const {
+    std::string_view taken = text_.substr(column - 1, next_ - (column - 1));
+    while (!taken.empty() && isBlank(taken.back())) taken.remove_suffix(1);
+    return taken;
+}
+
 std::size_t TextReader::column() {
     skipBlanks();
     return next_ + 1;

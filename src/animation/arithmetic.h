@@ -21,6 +21,8 @@ public:
     /// Takes a word of letters, digits and underscores that starts with a letter; empty when there is none.
     std::string_view takeWord();
     std::optional<double> takeNumber();
+    /// What was taken since a column, without blanks at its ends.
+    [[nodiscard]] std::string_view takenSince(std::size_t column) const;
 
     /// Throws Failure::usage with what was found here and what was expected.
     [[noreturn]] void failExpecting(const std::string& expected);

@@ -1,6 +1,7 @@
 // Deformers, one after another: their text, and the animation that they make.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "animation/animation.h"
 #include "animation/arithmetic.h"
@@ -16,6 +17,7 @@ struct Deformer {
     const DeformerKind* kind = nullptr;
     std::size_t column = 0;
     std::vector<Arithmetic> values; ///< one per value of the kind
+    std::vector<std::string> texts; ///< of values that are given
 };
 
 template <typename Kind>
@@ -66,7 +68,9 @@ void readGivenValues(Deformer& deformer, TextReader& text) {
         const std::size_t value = takeName(kinds, "value of " + deformer.kind->name, text);
         if (!deformer.values[value].steps.empty()) failAtColumn(column, "{} is given twice", kinds[value].name);
         if (!text.take('=')) text.failExpecting(fmt::format("'=' after {}", kinds[value].name));
+        const std::size_t start = text.column();
         deformer.values[value] = readValue(kinds[value], text);
+        deformer.texts[value] = text.takenSince(start);
         if (text.take(')')) return;
         if (!text.take(',')) text.failExpecting(kinds[value].isAxis ? "',' or ')'" : "an operator, ',' or ')'");
     }
@@ -93,6 +97,7 @@ Deformer readDeformer(TextReader& text) {
     Deformer deformer{.column = text.column()};
     deformer.kind = &deformerKinds()[takeName(deformerKinds(), "deformer", text)];
     deformer.values.resize(deformer.kind->values.size());
+    deformer.texts.resize(deformer.kind->values.size());
     if (!text.take('(')) text.failExpecting(fmt::format("'(' after {}", deformer.kind->name));
     readGivenValues(deformer, text);
     for (std::size_t i = 0; i < deformer.values.size(); ++i) {
@@ -192,6 +197,35 @@ dvec2 DeformedAnimation::keyRange() const {
 std::unique_ptr<Animation> deform(std::unique_ptr<Animation> base, const Cage& cage, const std::string& expression) {
     const Bounds box = boxOf(cage, base->coordinates());
     return std::make_unique<DeformedAnimation>(std::move(base), box, readDeformers(expression));
+}
+
+std::vector<DeformerText> parseDeformers(const std::string& expression) {
+    std::vector<DeformerText> texts;
+    for (const Deformer& deformer : readDeformers(expression)) {
+        DeformerText& text = texts.emplace_back(DeformerText{.name = deformer.kind->name, .values = {}});
+        for (std::size_t i = 0; i < deformer.texts.size(); ++i) {
+            const std::string& given = deformer.texts[i];
+            const ValueKind& kind = deformer.kind->values[i];
+            DeformerValue value{.name = kind.name, .text = given.empty() ? kind.standard : given};
+            value.isGiven = !given.empty();
+            char* end = nullptr;
+            const double number = std::strtod(value.text.c_str(), &end);
+            if (!kind.isAxis && *end == 0) value.number = number;
+            text.values.push_back(value);
+        }
+    }
+    return texts;
+}
+
+std::string toExpression(std::span<const DeformerText> deformers) {
+    std::vector<std::string> all;
+    for (const DeformerText& deformer : deformers) {
+        std::vector<std::string> values;
+        for (const DeformerValue& value : deformer.values)
+            if (value.isGiven) values.push_back(value.name + "=" + value.text);
+        all.push_back(fmt::format("{}({})", deformer.name, fmt::join(values, ", ")));
+    }
+    return fmt::format("{}", fmt::join(all, " "));
 }
 
 std::string deformerHelp() {

@@ -67,6 +67,7 @@ FrameMaker::FrameMaker(const AnimationArgs& args, const Warn& warn) : args_(args
     placeScene();
     if (polygons_) object.dense = polygons_->makeMesh(toSeconds(frames_.front(), desc.motion));
     makeModel();
+    checkShown(args_.picture, args_.scene.object.cage, loaded_.object);
     checkFilter(args.picture, *device_, warn);
     renderer_ =
         std::make_unique<Renderer>(*device_, RendererDesc{.width = args.scene.size.x, .height = args.scene.size.y});

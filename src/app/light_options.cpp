@@ -96,6 +96,11 @@ void addLighting(CLI::App& app, LightingDesc& lighting) {
                           "environment light: .hdr .exr .png; six files where the name has {face} (default: a neutral "
                           "studio)"));
     addEnvironmentShape(app, lighting.shape);
+    listIn(
+        kGroup, "A",
+        app.add_option("--environment-azimuth", lighting.environmentAzimuth,
+                       "degrees that the environment is turned by about Y, in the direction of --azimuth (default: 0)")
+            ->check(anyCoordinate()));
     addLights(app, lighting);
     const auto setShadows = [&lighting](std::int64_t) { lighting.castsShadows = false; };
     app.add_flag_function("--no-shadows", setShadows, "the lights cast no shadows")->group(kGroup);

@@ -211,6 +211,12 @@ void warnOfLongSegments(const RenderOptions& options, const Device& device, cons
                      stats.maxRate, options.edgePixels));
 }
 
+void checkShown(const PictureArgs& args, const std::string& cage, const LoadedObject& object) {
+    const bool hasTexCoords = object.dense ? !object.dense->texCoords.empty() : object.cage.hasTexCoords();
+    if (args.show == Show::texCoords && !hasTexCoords)
+        fail(Failure::input, "{}: there are no texture coordinates, which --show uv shows", cage);
+}
+
 void checkFilter(const PictureArgs& args, const Device& device, const Warn& warn) {
     const DeviceTraits& traits = device.traits();
     if (args.filter != Filter::anisotropic || args.anisotropy <= traits.maxAnisotropy) return;

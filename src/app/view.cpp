@@ -43,6 +43,14 @@ std::vector<GivenOption> listGiven(const CLI::App& app) {
     return given;
 }
 
+/// The names of all options of `relief check`.
+std::vector<std::string> listCheckOptions(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_parent()->get_subcommand("check")->get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
 Look toLook(const AnimationArgs& args) {
     const PictureArgs& picture = args.picture;
     return {.scene = args.scene,
@@ -84,6 +92,7 @@ int view(const ViewArgs& args, const CLI::App& app) {
     }
     if (!args.record.empty()) checkOutput(args.record, inputs);
     if (!animation.picture.layers.empty()) fail(Failure::usage, "a window shows no layers; relief render writes them");
+    // The window knows no command line: what it needs of one comes as functions.
     const ViewDesc desc{.look = toLook(animation),
                         .device = animation.picture.device,
                         .makeOptions =
@@ -94,6 +103,7 @@ int view(const ViewArgs& args, const CLI::App& app) {
                         .listFrames = [&](const Animation* moving) { return listFrames(animation, moving); },
                         .hasFrames = !animation.frames.empty(),
                         .given = listGiven(app),
+                        .checked = listCheckOptions(app),
                         .playsAtOnce = args.playsAtOnce,
                         .quitAfter = args.quitAfter,
                         .screenshot = args.screenshot,

@@ -113,6 +113,24 @@ Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp) {
 
 Environment loadEnvironment(const std::string& path) { return makeEnvironment(readEnvironment(path).picture); }
 
+std::array<vec3, 9> turnIrradiance(const vec3 (&irradiance)[9], double degrees) {
+    std::array<vec3, 9> turned;
+    std::ranges::copy(irradiance, turned.begin());
+    if (degrees == 0) return turned;
+    // What the turned environment has at (x, y, z) is what it had at (c x - s z, y, c z + s x).
+    const auto c = float(std::cos(glm::radians(degrees))), s = float(std::sin(glm::radians(degrees)));
+    const vec3(&l)[9] = irradiance;
+    turned[2] = c * l[2] - s * l[3], turned[3] = s * l[2] + c * l[3];
+    turned[4] = c * l[4] + s * l[5], turned[5] = c * l[5] - s * l[4];
+    // The other quadratic terms a z^2 + b x^2 + d y^2 + e x z, less the part of x^2 + y^2 + z^2 = 1 in them.
+    const vec3 a = 3 * c * c * l[6] - c * s * l[7] + s * s * l[8], b = 3 * s * s * l[6] + c * s * l[7] + c * c * l[8];
+    const vec3 d = -l[8], e = 6 * c * s * l[6] + (c * c - s * s) * l[7] - 2 * c * s * l[8];
+    turned[6] = (a - 0.5f * (b + d)) / 3.0f;
+    turned[7] = e;
+    turned[8] = 0.5f * (b - d);
+    return turned;
+}
+
 GpuEnvironment uploadEnvironment(Device& device, const Environment& environment) {
     RELIEF_CHECK(!environment.levels.empty());
     std::vector<float> texels; // RGBA, level by level

@@ -1,6 +1,7 @@
 // Light and materials: environments, distant lights, and how surfaces shade in them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,9 @@ EnvironmentPicture makeStudioPicture();
 Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp = false);
 /// Loads an environment of the shape that its sides say. Throws as readEnvironment does.
 Environment loadEnvironment(const std::string& path);
+
+/// The coefficients of an environment that is turned about Y by degrees, counter-clockwise seen from above.
+std::array<vec3, 9> turnIrradiance(const vec3 (&irradiance)[9], double degrees);
 
 /// An environment on the device, which owns its texture: what Lighting refers to.
 struct GpuEnvironment {
@@ -55,6 +59,7 @@ struct Lighting {
     std::vector<DistantLight> others; ///< each with shadows of its own; added one after another to the picture's halves
     bool castsShadows = true;
     const GpuEnvironment* environment = nullptr; ///< null: studioEnvironment()
+    double environmentAzimuth = 0;               ///< degrees that it is turned by about Y, as the camera's azimuth
     /// How far away the surface can hide the environment from itself, as a share of the diagonal of
     /// RenderOptions::bounds; 0: nothing does. Occluders are those that the picture shows.
     double occlusionRadius = 0;

@@ -84,6 +84,7 @@ struct Technique {
     std::uint32_t constant; ///< kShow... of shared/constants.h
     bool isLit = false;     ///< shadows, environment, tone curve; else colours to be seen as they are
     bool wantsAlbedo = false;
+    bool wantsTexCoords = false;
     bool wantsFaces = false; ///< fragments read the number of their face: a diced mesh is drawn face by face
     bool hasLines = false;   ///< a pass of lines over the surface
 };
@@ -96,6 +97,7 @@ constexpr Technique kTechniques[] = {
     {.show = Show::rate, .constant = kShowRate, .wantsFaces = true},
     {.show = Show::faces, .constant = kShowFaces, .wantsFaces = true},
     {.show = Show::wireframe, .constant = kShowWireframe, .hasLines = true},
+    {.show = Show::texCoords, .constant = kShowTexCoords, .wantsTexCoords = true},
 };
 static_assert(std::ranges::all_of(kTechniques, [](const Technique& t) { return &t - kTechniques == int(t.show); }));
 

@@ -16,6 +16,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     const NormalKind normal = row.hasNormals ? frame.options.normal : NormalKind::limit;
     ShaderConstants c =
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
+    // What is not asked for is not compiled: passes without normals have neither pictures nor slopes.
     c.pass = row.constant;
     c.hasMips = drawn.rates.hasMips();
     c.readsNodes = drawn.surface != nullptr && readsNodes(*drawn.surface, drawn.rates);
@@ -35,8 +36,8 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     } else if (row.hasNormals) {
         c.show = frame.technique.constant;
         c.hasAlbedoMap = pass == DrawPass::surface && frame.technique.wantsAlbedo && pictures.albedo && c.hasTexCoords;
-        c.wantsTexCoords =
-            c.hasAlbedoMap || (row.bendsNormals && (pictures.needTexCoords() || drawn.isBentByFunction()));
+        c.wantsTexCoords = c.hasAlbedoMap || (frame.technique.wantsTexCoords && c.hasTexCoords) ||
+                           (row.bendsNormals && (pictures.needTexCoords() || drawn.isBentByFunction()));
     }
     return c;
 }

@@ -61,7 +61,9 @@ void Renderer::Parts::useEnvironment(Frame& frame) {
         if (!studio) studio = uploadEnvironment(device, studioEnvironment());
         environment = &*studio;
     }
-    std::ranges::copy(environment->irradiance, frame.inputs.light.irradiance);
+    const double azimuth = frame.options.lighting.environmentAzimuth;
+    std::ranges::copy(turnIrradiance(environment->irradiance, azimuth), frame.inputs.light.irradiance);
+    frame.inputs.light.environmentTurn = float(azimuth / 360);
     for (pass::Material& material : frame.materials) {
         material.environmentLevel = environment->levelOf(material.roughness);
         if (frame.shading == kShadingPhysical) material.environmentLevel = std::round(material.environmentLevel);

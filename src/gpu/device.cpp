@@ -229,12 +229,12 @@ private:
     VkCommandBuffer handle_ = VK_NULL_HANDLE;
 };
 
-void Device::submitAndWait(const std::function<void(VkCommandBuffer)>& record, const SubmitSemaphores& semaphores) {
+void Device::submitAndWait(const std::function<void(VkCommandBuffer)>& record) {
     const Commands commands(*this, record);
-    if (uploads_->isEmpty()) return submit({{commands.handle()}}, semaphores);
+    if (uploads_->isEmpty()) return submit({{commands.handle()}});
     // Recorded last, so that uploads made while `record` ran are among them; submitted first.
     const Commands uploads(*this, [&](VkCommandBuffer c) { uploads_->record(c); });
-    submit({{uploads.handle(), commands.handle()}}, semaphores);
+    submit({{uploads.handle(), commands.handle()}});
 }
 
 void Device::submitUploads() {
@@ -244,24 +244,13 @@ void Device::submitUploads() {
 }
 
 /// All pending uploads are among `commands`.
-void Device::submit(std::span<const VkCommandBuffer> commands, const SubmitSemaphores& semaphores) {
+void Device::submit(std::span<const VkCommandBuffer> commands) {
     std::vector<VkCommandBufferSubmitInfo> infos;
     for (const VkCommandBuffer each : commands)
         infos.push_back({.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = each});
     VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     submit.commandBufferInfoCount = std::uint32_t(infos.size());
     submit.pCommandBufferInfos = infos.data();
-    const auto infoOf = [](VkSemaphore semaphore) {
-        VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-        info.semaphore = semaphore;
-        info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        return info;
-    };
-    const VkSemaphoreSubmitInfo waited = infoOf(semaphores.waited), signaled = infoOf(semaphores.signaled);
-    submit.waitSemaphoreInfoCount = semaphores.waited != VK_NULL_HANDLE ? 1 : 0;
-    submit.pWaitSemaphoreInfos = &waited;
-    submit.signalSemaphoreInfoCount = semaphores.signaled != VK_NULL_HANDLE ? 1 : 0;
-    submit.pSignalSemaphoreInfos = &signaled;
     checkVulkan(vkQueueSubmit2(queue_, 1, &submit, fence_), "vkQueueSubmit2");
     ++submitCount_;
     checkVulkan(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "vkWaitForFences");

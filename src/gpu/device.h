@@ -90,11 +90,6 @@ struct DeviceTraits {
 /// The traits of all devices, without making one the current one.
 std::vector<DeviceTraits> listDevices();
 
-/// What commands wait for before they start, and what they signal at their end; either may be null.
-struct SubmitSemaphores {
-    VkSemaphore waited = VK_NULL_HANDLE, signaled = VK_NULL_HANDLE;
-};
-
 /// A logical device with one queue.
 class Device {
 public:
@@ -128,7 +123,7 @@ public:
     /// path waits three times, of the other paths twice: for rates, which the host plans triangles from; for diced
     /// vertices, whose time is taken by the host's clock on CPU devices; and for the picture. Each posed set of points
     /// adds one.
-    void submitAndWait(const std::function<void(VkCommandBuffer)>& record, const SubmitSemaphores& semaphores = {});
+    void submitAndWait(const std::function<void(VkCommandBuffer)>& record);
     /// Submits pending uploads and waits; does nothing where there are none.
     void submitUploads();
     /// Submissions so far; the host waited for each of them.
@@ -151,7 +146,7 @@ private:
     void makeCommands();
     void destroy();
     class Commands;
-    void submit(std::span<const VkCommandBuffer> commands, const SubmitSemaphores& semaphores = {});
+    void submit(std::span<const VkCommandBuffer> commands);
     [[nodiscard]] bool presents(VkPhysicalDevice physical, std::uint32_t family) const;
     [[nodiscard]] std::optional<std::uint32_t> findQueueFamily(VkPhysicalDevice physical) const;
 

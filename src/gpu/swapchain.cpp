@@ -36,7 +36,7 @@ void changeLayout(VkCommandBuffer commands, VkImage image, VkImageLayout from, V
 Swapchain::Swapchain(Device& device, std::uint32_t width, std::uint32_t height) : device_(device) {
     chooseFormat();
     makeRenderPass();
-    isFree_ = makeSemaphore(device);
+    for (Slot& slot : slots_) slot = makeSlot();
     makeImages(width, height);
 }
 
@@ -162,36 +162,89 @@ void Swapchain::copy(VkCommandBuffer commands, const Texture& picture, VkExtent2
                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, isExact ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
 }
 
+Swapchain::Slot Swapchain::makeSlot() const {
+    Slot slot;
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.queueFamilyIndex = device_.queueFamily();
+    VkCommandPool poolHandle = VK_NULL_HANDLE;
+    checkVulkan(vkCreateCommandPool(device_.handle(), &pool, nullptr, &poolHandle), "vkCreateCommandPool");
+    slot.pool = {device_.handle(), poolHandle, vkDestroyCommandPool};
+    VkCommandBufferAllocateInfo buffer{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    buffer.commandPool = poolHandle;
+    buffer.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    buffer.commandBufferCount = 1;
+    checkVulkan(vkAllocateCommandBuffers(device_.handle(), &buffer, &slot.commands), "vkAllocateCommandBuffers");
+
+    // Signaled, as if a frame had ended: the first one does not wait.
+    VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    fence.flags = VK_FENCE_CREATE_SIGNALED_BIT;
+    VkFence fenceHandle = VK_NULL_HANDLE;
+    checkVulkan(vkCreateFence(device_.handle(), &fence, nullptr, &fenceHandle), "vkCreateFence");
+    slot.isDone = {device_.handle(), fenceHandle, vkDestroyFence};
+    slot.isFree = makeSemaphore(device_);
+    return slot;
+}
+
+void Swapchain::submit(const Slot& slot, const Shown& shown) const {
+    const auto infoOf = [](VkSemaphore semaphore) {
+        VkSemaphoreSubmitInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+        info.semaphore = semaphore;
+        info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        return info;
+    };
+    const VkSemaphoreSubmitInfo waited = infoOf(slot.isFree.get()), signaled = infoOf(shown.isDrawn.get());
+    VkCommandBufferSubmitInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
+    commands.commandBuffer = slot.commands;
+    VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+    submit.waitSemaphoreInfoCount = submit.commandBufferInfoCount = submit.signalSemaphoreInfoCount = 1;
+    submit.pWaitSemaphoreInfos = &waited;
+    submit.pCommandBufferInfos = &commands;
+    submit.pSignalSemaphoreInfos = &signaled;
+    const VkFence fence = slot.isDone.get();
+    checkVulkan(vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
+    checkVulkan(vkQueueSubmit2(device_.queue(), 1, &submit, fence), "vkQueueSubmit2");
+}
+
 bool Swapchain::show(const Texture& picture, VkExtent2D part, const std::function<void(VkCommandBuffer)>& drawOver) {
+    // The frame before the last one has to be done: its command buffer and semaphore are used again.
+    const Slot& slot = slots_[nextSlot_];
+    const VkFence fence = slot.isDone.get();
+    checkVulkan(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
     std::uint32_t index = 0;
     const VkResult acquired =
-        vkAcquireNextImageKHR(device_.handle(), chain_.get(), UINT64_MAX, isFree_.get(), VK_NULL_HANDLE, &index);
+        vkAcquireNextImageKHR(device_.handle(), chain_.get(), UINT64_MAX, slot.isFree.get(), VK_NULL_HANDLE, &index);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return false;
     if (acquired != VK_SUBOPTIMAL_KHR) checkVulkan(acquired, "vkAcquireNextImageKHR");
     const Shown& shown = images_[index];
+    device_.submitUploads();
 
     // The picture, what is drawn over it, and the layout that the window system reads.
-    const auto record = [&](VkCommandBuffer commands) {
-        constexpr VkImageLayout drawn = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-        changeLayout(commands, shown.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-        copy(commands, picture, part, shown.image);
-        changeLayout(commands, shown.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, drawn);
-        VkRenderPassBeginInfo begin{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
-        begin.renderPass = renderPass_.get();
-        begin.framebuffer = shown.framebuffer.get();
-        begin.renderArea.extent = extent_;
-        vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
-        drawOver(commands);
-        vkCmdEndRenderPass(commands);
-        changeLayout(commands, shown.image, drawn, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
-    };
-    device_.submitAndWait(record, {.waited = isFree_.get(), .signaled = shown.isDrawn.get()});
+    constexpr VkImageLayout drawn = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    VkCommandBuffer commands = slot.commands;
+    VkCommandBufferBeginInfo once{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    once.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    checkVulkan(vkResetCommandPool(device_.handle(), slot.pool.get(), 0), "vkResetCommandPool");
+    checkVulkan(vkBeginCommandBuffer(commands, &once), "vkBeginCommandBuffer");
+    changeLayout(commands, shown.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+    copy(commands, picture, part, shown.image);
+    changeLayout(commands, shown.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, drawn);
+    VkRenderPassBeginInfo begin{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+    begin.renderPass = renderPass_.get();
+    begin.framebuffer = shown.framebuffer.get();
+    begin.renderArea.extent = extent_;
+    vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    drawOver(commands);
+    vkCmdEndRenderPass(commands);
+    changeLayout(commands, shown.image, drawn, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
+    checkVulkan(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+    submit(slot, shown);
+    nextSlot_ = (nextSlot_ + 1) % slots_.size();
 
-    const VkSemaphore drawn = shown.isDrawn.get();
+    const VkSemaphore isDrawn = shown.isDrawn.get();
     const VkSwapchainKHR chain = chain_.get();
     VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
     info.waitSemaphoreCount = 1;
-    info.pWaitSemaphores = &drawn;
+    info.pWaitSemaphores = &isDrawn;
     info.swapchainCount = 1;
     info.pSwapchains = &chain;
     info.pImageIndices = &index;

@@ -61,6 +61,7 @@ Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnviron
     lighting.others = desc.others;
     lighting.occlusionRadius = desc.occlusionRadius;
     lighting.castsShadows = desc.castsShadows;
+    lighting.environmentAzimuth = desc.environmentAzimuth;
     lighting.environment = environment;
     return lighting;
 }

@@ -35,6 +35,7 @@ struct LightingDesc {
     bool castsShadows = Lighting().castsShadows;
     std::string environment;               ///< path as of readEnvironment; empty: the built-in studio
     std::optional<EnvironmentShape> shape; ///< of it; default: what its sides say
+    double environmentAzimuth = 0;         ///< as Lighting's
     double occlusionRadius = 0;            ///< as Lighting's
 };
 

@@ -121,6 +121,7 @@ inline constexpr Word<Show> kShows[] = {
     {"rate", Show::rate, "segments per edge as colors"},
     {"faces", Show::faces, "each face of the cage in a color of its own"},
     {"wireframe", Show::wireframe, "the edges of the triangles"},
+    {"uv", Show::texCoords, "texture coordinates: 8 x 8 fields per unit square, redder with s, greener with t"},
 };
 
 inline constexpr Word<Layer> kLayers[] = {

@@ -5,8 +5,6 @@
 
 #include <malloc.h>
 #include <nlohmann/json.hpp>
-#include <spawn.h>
-#include <unistd.h>
 
 #include "base/clock.h"
 #include "view/keys.h"
@@ -67,8 +65,9 @@ void Viewer::takeEvents(double now) {
 /// Applies the next played event if it is its turn; returns whether it was.
 bool Viewer::takePlayed(double now) {
     const Event event = played_.front();
-    const bool isResting =
-        pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
+    const bool isResting = pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() &&
+                           !otherLoader_.isBusy() && !check_;
+    // Events that wait stay in front of the queue until what they wait for has happened.
     switch (event.kind) {
     case EventKind::rest:
         if (isResting) played_.pop_front();
@@ -86,6 +85,7 @@ bool Viewer::takePlayed(double now) {
         return false;
     default: break;
     }
+    // All others act at once, one per frame, as a person's would.
     if (framesToPlay_ > 0) return false;
     played_.pop_front();
     record(event);
@@ -104,6 +104,7 @@ void Viewer::record(const Event& event) {
 }
 
 void Viewer::apply(const Event& event) {
+    // Panels come first: what they take does not turn the camera below them.
     const bool isTaken = ui_->take(event);
     switch (event.kind) {
     case EventKind::move: move(event.at); break;
@@ -121,6 +122,7 @@ void Viewer::apply(const Event& event) {
     case EventKind::size: {
         const ivec2 size(event.at);
         if (window_.size() == size) break;
+        // The window system resizes when it likes: later events count on the size.
         window_.resize(size);
         for (int i = 0; i < 200 && window_.size() != size; ++i) window_.waitForEvents(0.01);
         break;
@@ -148,6 +150,10 @@ void Viewer::move(const dvec2& to) {
     const ivec2& size = state_.look.scene.size;
     if (dragsDivider_) {
         state_.divider = std::clamp(to.x / size.x, 0.02, 0.98);
+        changePicture();
+    } else if (drag_->isControlled && drag_->button == Button::right) {
+        double& azimuth = state_.look.scene.lighting.environmentAzimuth;
+        azimuth = std::remainder(azimuth + 0.5 * moved.x, 360);
         changePicture();
     } else if (drag_->isControlled) {
         LightingDesc& lighting = state_.look.scene.lighting;
@@ -197,11 +203,14 @@ void Viewer::pressKey(int key) {
     case GLFW_KEY_LEFT: step(-1); break;
     case GLFW_KEY_RIGHT: step(1); break;
     case GLFW_KEY_R: changeObject(); break;
+    case GLFW_KEY_K: obey({.checks = true}); break;
     case GLFW_KEY_C: obey({.copies = true}); break;
     case GLFW_KEY_F12: obey({.shoots = true}); break;
     case GLFW_KEY_TAB: state_.showsPanels = !state_.showsPanels; break;
     case GLFW_KEY_SLASH: state_.showsHelp = !state_.showsHelp; break;
-    case GLFW_KEY_ESCAPE: state_.showsHelp = false, state_.error.clear(), state_.notice.clear(); break;
+    case GLFW_KEY_ESCAPE:
+        state_.showsHelp = false, state_.error.clear(), state_.notice.clear(), state_.certificate.clear();
+        break;
     case GLFW_KEY_Q: isClosed_ = true; break;
     default: pressViewKey(key); break;
     }
@@ -211,6 +220,7 @@ void Viewer::pressViewKey(int key) {
     const CameraOptions& camera = state_.look.scene.camera;
     Show& show = state_.look.show;
     const auto isAt = [&](double azimuth) { return std::abs(std::remainder(camera.azimuth - azimuth, 360)) < 1e-9; };
+    // The keys of Blender's numeric pad: a second press looks from the other side.
     switch (key) {
     case GLFW_KEY_F: return frameObject();
     case GLFW_KEY_1: return look(isAt(0) && camera.elevation == 0 ? 180 : 0, 0);
@@ -291,19 +301,30 @@ void Viewer::shoot(const std::string& path) {
 }
 
 void Viewer::exportTurntable() {
-    if (export_ > 0) return;
+    if (export_) return;
     const std::string target = freeName("turntable", ".mp4");
     std::vector<std::string> words = toCommandWords("animate", desc_.given, desc_.look, shownLook());
     std::erase_if(words, [](const std::string& word) { return word.starts_with("--frames"); });
     for (const char* word : {"--turntable=72", "--quiet", "--progress=never", "-o"}) words.emplace_back(word);
     words.push_back(target);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t child = -1;
-    const bool isStarted = posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, arguments.data(), environ) == 0;
-    export_ = isStarted ? child : -1;
-    state_.notice = isStarted ? "writing " + target + " ..." : "no more processes can be started";
+    export_.emplace(words);
+    state_.notice = "writing " + target + " ...";
+}
+
+/// The certificate of what is shown: of its options those that `relief check` takes, with the time of this frame.
+void Viewer::startCheck() {
+    if (check_) return;
+    std::vector<std::string> words = toCommandWords("check", desc_.given, desc_.look, shownLook());
+    std::erase_if(words, [&](const std::string& word) {
+        return word.starts_with("--") &&
+               std::ranges::find(desc_.checked, word.substr(0, word.find('='))) == desc_.checked.end();
+    });
+    std::erase_if(words, [](const std::string& word) { return word.starts_with("--time="); });
+    if (scene_->isMoving())
+        words.push_back(fmt::format("--time={}", state_.look.frame / state_.look.scene.object.motion.cache.fps));
+    words.emplace_back("--progress=never");
+    check_.emplace(words);
+    state_.notice = "the certificate is made ...";
 }
 
 void Viewer::report() {
@@ -316,6 +337,7 @@ void Viewer::report() {
                                 {"frame", state_.look.frame},
                                 {"triangles", stats_.triangleCount},
                                 {"error", state_.error},
+                                {"certificate", state_.certificate},
                                 {"command", command()}};
     desc_.report(counts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -329,20 +351,20 @@ void Viewer::obey(const PanelWishes& wishes) {
     if (wishes.reloads) changeObject();
     if (wishes.frontOf) look(*wishes.frontOf, 0);
     if (wishes.seeks) seek(*wishes.seeks);
-    if (wishes.exports) exportTurntable();
+    if (!wishes.opens.empty()) drop(wishes.opens);
     if (wishes.copies) {
         window_.copyText(toShellLine(command()));
         state_.notice = "copied: " + toShellLine(command());
     }
-    if (wishes.shoots) {
-        try {
-            shoot(freeName("relief", ".png"));
-        } catch (const Error& error) {
-            state_.error = onOneLine(error.what());
-        }
+    try {
+        if (wishes.shoots) shoot(freeName("relief", ".png"));
+        if (wishes.exports) exportTurntable();
+        if (wishes.checks) startCheck();
+    } catch (const Error& error) {
+        state_.error = onOneLine(error.what());
     }
     const bool isAny = wishes.changesPicture || wishes.changesObject || wishes.frames || wishes.copies ||
-                       wishes.shoots || wishes.exports || wishes.frontOf || wishes.seeks;
+                       wishes.shoots || wishes.exports || wishes.checks || wishes.frontOf || wishes.seeks;
     if (isAny) uiFrames_ = kFramesAfterEvent;
 }
 

@@ -103,6 +103,8 @@ void setShading(Options& options, const Look& before, const Look& now) {
     options.replace("--shading", wordOf(kShadings, before.scene.shading.shading),
                     wordOf(kShadings, now.scene.shading.shading));
     options.replace("--environment", old.environment, lighting.environment);
+    options.replace("--environment-azimuth", textOf(std::optional(old.environmentAzimuth)),
+                    textOf(std::optional(lighting.environmentAzimuth)));
     options.replace("--exposure", textOf(std::optional(before.finish.exposure)),
                     textOf(std::optional(now.finish.exposure)));
     if (!lighting.castsShadows && old.castsShadows) options.set("--no-shadows", "");

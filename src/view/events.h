@@ -14,7 +14,7 @@ enum class Button { left, right, middle };
 inline constexpr Word<Button> kButtons[] = {
     {"left", Button::left, "turn; with shift move, with control turn the light"},
     {"middle", Button::middle, "move"},
-    {"right", Button::right, "zoom"},
+    {"right", Button::right, "zoom; with control turn the environment"},
 };
 
 enum class EventKind {

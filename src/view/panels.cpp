@@ -118,6 +118,7 @@ void makeLight(ViewState& state, PanelWishes& wishes) {
     bool turns = slide("light from", key.x, -360, 360, "%.0f deg");
     turns |= slide("light above", key.y, -90, 90, "%.0f deg");
     if (turns) scene.lighting.key = key;
+    changes |= slide("environment", scene.lighting.environmentAzimuth, -360, 360, "%.0f deg");
     changes |= ImGui::Checkbox("shadows", &scene.lighting.castsShadows);
     auto& material = scene.object.material;
     changes |= choose("shading", scene.shading.shading, kShadings);
@@ -128,6 +129,30 @@ void makeLight(ViewState& state, PanelWishes& wishes) {
     wishes.changesPicture |= changes || turns;
 }
 
+/// Every value of an expression that is a number can be dragged; what is typed may not be one yet.
+void makeDeformerValues(std::string& deformers, PanelWishes& wishes) {
+    std::vector<DeformerText> all;
+    try {
+        all = parseDeformers(deformers);
+    } catch (const Error&) {
+        return;
+    }
+    bool isChanged = false;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        ImGui::PushID(int(i));
+        for (DeformerValue& value : all[i].values) {
+            if (!value.number || !dragNumber(fmt::format("{} {}", all[i].name, value.name).c_str(), *value.number))
+                continue;
+            value.text = fmt::format("{:.6g}", *value.number), value.isGiven = true;
+            isChanged = true;
+        }
+        ImGui::PopID();
+    }
+    if (!isChanged) return;
+    deformers = toExpression(all);
+    wishes.changesObject = true;
+}
+
 void makeMotion(ViewState& state, PanelWishes& wishes) {
     std::string& deformers = state.look.scene.object.motion.deformers;
     if (deformers.empty() || !section("Deformers", true)) return;
@@ -135,6 +160,7 @@ void makeMotion(ViewState& state, PanelWishes& wishes) {
     if (ImGui::InputText("##deform", &deformers, ImGuiInputTextFlags_EnterReturnsTrue)) wishes.changesObject = true;
     ImGui::PopItemWidth();
     explain("an expression of --deform; Enter applies it");
+    makeDeformerValues(deformers, wishes);
 }
 
 void makeMeasured(const ViewFacts& facts) {
@@ -155,7 +181,7 @@ void makeMeasured(const ViewFacts& facts) {
     explain("memory of the device that buffers and images take");
 }
 
-void makeFiles(const ViewFacts& facts, PanelWishes& wishes) {
+void makeFiles(const ViewState& state, const ViewFacts& facts, PanelWishes& wishes) {
     if (ImGui::Button("copy command")) wishes.copies = true;
     explain(facts.command.c_str());
     ImGui::SameLine();
@@ -163,6 +189,16 @@ void makeFiles(const ViewFacts& facts, PanelWishes& wishes) {
     ImGui::SameLine();
     if (ImGui::Button("turntable")) wishes.exports = true;
     explain("writes turntable.mp4: 72 frames of one turn, by relief animate");
+    if (ImGui::Button("certificate")) wishes.checks = true;
+    explain("what relief check finds of this surface and pose, in the background");
+    ImGui::SameLine();
+    ImGui::PushItemWidth(-1);
+    if (ImGui::BeginCombo("##recent", "recent files")) {
+        for (const std::string& path : state.recent)
+            if (ImGui::Selectable(path.c_str())) wishes.opens = path;
+        ImGui::EndCombo();
+    }
+    ImGui::PopItemWidth();
     if (!section("Warnings", false) || facts.scene == nullptr) return;
     for (const std::string& line : facts.scene->warnings()) ImGui::TextWrapped("%s", line.c_str());
     if (facts.scene->warnings().empty()) ImGui::TextDisabled("none");
@@ -220,6 +256,18 @@ void makeHelp(const ViewState& state, const ivec2& size) {
     ImGui::End();
 }
 
+/// Its table has columns, which need letters of one width.
+void makeCertificate(ViewState& state, const ivec2& size) {
+    if (state.certificate.empty()) return;
+    ImGui::SetNextWindowPos({0.5f * float(size.x), 0.5f * float(size.y)}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    ImGui::Begin("certificate", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back());
+    ImGui::TextUnformatted(state.certificate.c_str());
+    ImGui::PopFont();
+    if (ImGui::Button("close")) state.certificate.clear();
+    ImGui::End();
+}
+
 ImU32 creaseColor(float sharpness) {
     const float t = std::clamp(sharpness / 10, 0.0f, 1.0f);
     return ImGui::GetColorU32(ImVec4(1, 0.85f - 0.70f * t, 0.15f, 0.95f));
@@ -240,6 +288,7 @@ double Times::quantile(double share) const {
 PanelWishes makePanels(ViewState& state, const ViewFacts& facts, const ivec2& size) {
     PanelWishes wishes;
     if (state.showsPanels) {
+        // One panel at the left edge, as high as its contents and no higher than the window.
         ImGui::SetNextWindowPos({kMargin, kMargin});
         ImGui::SetNextWindowSizeConstraints({kPanelWidth, 0},
                                             {kPanelWidth, std::max(80.0f, float(size.y) - 2 * kMargin)});
@@ -251,18 +300,20 @@ PanelWishes makePanels(ViewState& state, const ViewFacts& facts, const ivec2& si
         ImGui::SameLine();
         ImGui::TextDisabled("%s   ? for keys", facts.isCoarse ? "coarse" : "full");
         explain(facts.device.c_str());
+        // In the order of the data flow: what is seen, heights, triangles, light, time, and what it cost.
         makeView(state, wishes);
         makeHeights(state, wishes);
         makeTriangles(state, wishes);
         makeLight(state, wishes);
         makeMotion(state, wishes);
         makeMeasured(facts);
-        makeFiles(facts, wishes);
+        makeFiles(state, facts, wishes);
         ImGui::PopItemWidth();
         ImGui::End();
     }
     makeTimeLine(state, facts, size, wishes);
     makeBanner(state, facts, size);
+    makeCertificate(state, size);
     makeHelp(state, size);
     return wishes;
 }

@@ -40,9 +40,11 @@ struct ViewState {
     bool isFrozen = false; ///< rates are measured from where the camera was
     SplitKind split = SplitKind::off;
     bool showsDifference = false;
-    double divider = 0.5; ///< of the split view, 0..1 from the left
-    std::string error;    ///< of the latest files that could not be read
-    std::string notice;   ///< what was done last, such as a screenshot
+    double divider = 0.5;            ///< of the split view, 0..1 from the left
+    std::string error;               ///< of the latest files that could not be read
+    std::string notice;              ///< what was done last, such as a screenshot
+    std::string certificate;         ///< the latest one, until it is closed
+    std::vector<std::string> recent; ///< cages of before
 };
 
 /// What the panels report.
@@ -60,9 +62,10 @@ struct ViewFacts {
 /// What a panel asks for.
 struct PanelWishes {
     bool changesPicture = false, changesObject = false;
-    bool frames = false, copies = false, shoots = false, reloads = false, exports = false;
+    bool frames = false, copies = false, shoots = false, reloads = false, exports = false, checks = false;
     std::optional<double> frontOf; ///< azimuth of an axis view
     std::optional<int> seeks;      ///< frame of the time line
+    std::string opens;             ///< a cage
 };
 
 /// Makes all panels of one frame; `size`: of the window in pixels.

@@ -13,11 +13,17 @@ namespace {
 
 void checkResult(VkResult result) { checkVulkan(result, "Dear ImGui's call of Vulkan"); }
 
-/// The font of the panels: DejaVu Sans where it is installed, else the built-in one.
-void loadFont() {
-    constexpr const char* path = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-    ImGuiIO& io = ImGui::GetIO();
-    if (access(path, R_OK) == 0) io.Fonts->AddFontFromFileTTF(path, 14);
+/// The font of the panels, and last the one of tables: DejaVu Sans, proportional and monospaced, where it is installed,
+/// else the built-in one, which is monospaced.
+void loadFonts() {
+    for (const char* name : {"DejaVuSans", "DejaVuSansMono"}) {
+        const std::string path = fmt::format("/usr/share/fonts/truetype/dejavu/{}.ttf", name);
+        ImFontAtlas& fonts = *ImGui::GetIO().Fonts;
+        if (access(path.c_str(), R_OK) == 0)
+            fonts.AddFontFromFileTTF(path.c_str(), 14);
+        else
+            fonts.AddFontDefault();
+    }
 }
 
 void setStyle() {
@@ -63,7 +69,7 @@ Ui::Ui(Device& device, const Swapchain& swapchain) : device_(device) {
     io.IniFilename = nullptr;              // every window starts the same
     io.ConfigInputTextCursorBlink = false; // else a field would never be at rest
     mapKeys();
-    loadFont();
+    loadFonts();
     setStyle();
 
     // Its own descriptors, pipeline and fonts on the device.

@@ -4,9 +4,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include <sys/wait.h>
-
 #include "base/clock.h"
+#include "view/recent.h"
 
 namespace relief {
 namespace {
@@ -72,7 +71,7 @@ void Viewer::step() {
     advanceTime(now);
     takeLoaded();
     watchFiles(now);
-    checkExport();
+    watchProcesses();
     draw(now);
 }
 
@@ -86,7 +85,7 @@ double Viewer::secondsToWait(double now) const {
     if (pacing_.next(now) != Quality::none) seconds = 0;
     if (rest >= 0) seconds = std::min(seconds, rest);
     if (!played_.empty()) seconds = std::min(seconds, std::max(0.0, playedUntil_ - now));
-    if (loader_.isBusy() || otherLoader_.isBusy() || export_ > 0) seconds = std::min(seconds, 0.02);
+    if (loader_.isBusy() || otherLoader_.isBusy() || export_ || check_) seconds = std::min(seconds, 0.02);
     if (state_.isPlaying) seconds = std::min(seconds, 0.5 / desc_.look.scene.object.motion.cache.fps);
     return seconds;
 }
@@ -121,6 +120,8 @@ void Viewer::useScene(Prepared prepared) {
     if (scene_->isMoving())
         state_.look.frame = std::clamp(state_.look.frame, scene_->frames().front(), scene_->frames().back());
     window_.setTitle(titleOf(scene_->look()));
+    addRecent(scene_->look().scene.object.cage);
+    state_.recent = readRecent();
 }
 
 void Viewer::takeLoaded() {
@@ -138,6 +139,7 @@ void Viewer::takeLoaded() {
         if (result.error.empty()) changePicture();
         return result.error.empty();
     };
+    // The scene that is shown, and the one of the right side, which is not needed where it cannot be had.
     if (auto result = loader_.take()) {
         const auto take = [&](Prepared prepared) { useScene(std::move(prepared)); };
         if (use(*result, take)) ++report_.reloadCount;
@@ -156,14 +158,21 @@ void Viewer::watchFiles(double now) {
     if (watch_.hasChanged()) changeObject();
 }
 
-void Viewer::checkExport() {
-    if (export_ <= 0) return;
-    int status = 0;
-    if (waitpid(export_, &status, WNOHANG) != export_) return;
-    export_ = -1;
-    const bool isWritten = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    state_.notice = isWritten ? "turntable.mp4 is written" : "turntable.mp4 was not written";
-    uiFrames_ = kFramesAfterEvent;
+/// What was started on the side and has ended.
+void Viewer::watchProcesses() {
+    if (const std::optional<int> code = export_ ? export_->poll() : std::nullopt) {
+        export_.reset();
+        state_.notice = *code == 0 ? "the turntable is written" : "the turntable was not written";
+        uiFrames_ = kFramesAfterEvent;
+    }
+    if (const std::optional<int> code = check_ ? check_->poll() : std::nullopt) {
+        const std::string text = check_->output();
+        check_.reset();
+        state_.notice.clear();
+        state_.certificate = text;
+        if (text.empty()) state_.error = fmt::format("relief check ended with exit code {} and no certificate", *code);
+        uiFrames_ = kFramesAfterEvent;
+    }
 }
 
 // --- pictures ------------------------------------------------------------------------------------------------------
@@ -207,9 +216,11 @@ void Viewer::drawPicture(Quality quality) {
     isCoarse_ = quality == Quality::coarse;
     const ivec2 whole = state_.look.scene.size;
     const ivec2 size = isCoarse_ ? glm::max(whole / pacing_.divisor(), ivec2(1)) : whole;
+    // Coarse pictures have a smaller size and a smaller shadow map: both cost by the pixel.
     renderer_->resize({.width = size.x,
                        .height = size.y,
                        .shadowSide = isCoarse_ ? RendererDesc().shadowSide / 2 : RendererDesc().shadowSide});
+    // A frozen camera still decides about rates, while the picture is seen from elsewhere.
     if (state_.isFrozen && !frozenCamera_) frozenCamera_ = scene_->makeCamera(state_.look, whole);
     if (!state_.isFrozen) frozenCamera_.reset();
     Picture picture = scene_->draw(*renderer_, state_.look, size, frozenCamera_);
@@ -221,6 +232,7 @@ void Viewer::drawPicture(Quality quality) {
     else
         picture_ = std::move(picture);
 
+    // What it took decides how coarse the next picture is, and is what the panel shows.
     const double seconds = secondsNow() - start;
     pacing_.drew(quality, seconds);
     pictureTimes_.add(1e3 * seconds);
@@ -241,6 +253,7 @@ void Viewer::develop(const Picture& picture, bool isExact) {
 /// Draws the right side of a split view. Its heights may differ: then it is a scene of its own, read when first needed.
 void Viewer::addOtherSide(Codes& codes, const ivec2& size, bool isExact) {
     Look other = shownLook();
+    // The look of the right side: that of the left one with one thing changed.
     switch (state_.split) {
     case SplitKind::smooth: other.scene.object.height.detail = Detail::none; break;
     case SplitKind::bump: other.scene.object.height.detail = Detail::bump; break;
@@ -252,11 +265,14 @@ void Viewer::addOtherSide(Codes& codes, const ivec2& size, bool isExact) {
     case SplitKind::limitNormals: other.triangles.normal = NormalKind::limit; break;
     case SplitKind::off: return;
     }
+    // Another technique needs another scene, which is read in the background: until then the left side fills the
+    // window.
     const bool isSame = other.scene.object.height.detail == scene_->look().scene.object.height.detail;
     if (!isSame && (!other_ || other_->look().scene.object.height.detail != other.scene.object.height.detail)) {
         if (!otherLoader_.isBusy()) otherLoader_.ask(other);
         return;
     }
+    // Developed as the left side was, and joined at the divider.
     ShownScene& scene = isSame ? *scene_ : *other_;
     const Picture picture = scene.draw(*renderer_, other, size, frozenCamera_);
     const Finish& finish = state_.look.finish;
@@ -276,6 +292,7 @@ void Viewer::upload(const Codes& codes) {
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {canvasPart_.width, canvasPart_.height, 1};
     device_->submitAndWait([&](VkCommandBuffer commands) {
+        barrier(commands); // a frame that is still drawn reads the picture of before
         vkCmdCopyBufferToImage(commands, staging_.handle.get(), canvas_.handle.get(), VK_IMAGE_LAYOUT_GENERAL, 1,
                                &region);
         barrier(commands);
@@ -307,6 +324,7 @@ void Viewer::present(double now) {
     if (uiFrames_ > 0) --uiFrames_;
     if (framesToPlay_ > 0) --framesToPlay_;
 
+    // A window that was resized meanwhile shows nothing; the next frame has its size.
     const bool isShown = swapchain_->show(canvas_, canvasPart_, [&](VkCommandBuffer c) { ui_->draw(c); });
     ++report_.frameCount;
     if (!isShown) fitToWindow();

@@ -9,6 +9,7 @@
 #include "view/orbit.h"
 #include "view/pacing.h"
 #include "view/panels.h"
+#include "view/process.h"
 #include "view/ui.h"
 #include "view/window.h"
 
@@ -37,7 +38,7 @@ private:
     void upload(const Codes& codes);
     void present(double now);
     void fitToWindow();
-    void checkExport();
+    void watchProcesses();
 
     // What users do: actions.cpp.
     void takeEvents(double now);
@@ -56,6 +57,7 @@ private:
     void look(double azimuth, double elevation);
     void frameObject();
     void exportTurntable();
+    void startCheck();
     void shoot(const std::string& path);
     void report();
 
@@ -103,7 +105,7 @@ private:
     double lastFrameAt_ = 0, lastWatchAt_ = 0, playStart_ = 0;
     int playStartFrame_ = 0;
     bool isClosed_ = false, wantsFirstShot_ = false;
-    int export_ = -1; ///< process that writes the turntable
+    std::optional<Process> export_, check_;
     ViewReport report_;
 };
 

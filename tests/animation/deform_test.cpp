@@ -38,6 +38,19 @@ void expectDeformed(const std::string& expression, double t, const Expected& exp
     expectNear(deformed(cage, expression, t), points, 4e-6);
 }
 
+TEST(Deformers, areTakenApartAndPutTogether) {
+    std::vector<DeformerText> all = parseDeformers(" twist( axis = y , angle=-30) wave(speed=2*t) bend()");
+    ASSERT_EQ(all.size(), 3u);
+    EXPECT_EQ(toExpression(all), "twist(axis=y, angle=-30) wave(speed=2*t) bend()");
+    EXPECT_EQ(all[0].values[1].number, -30);
+    EXPECT_FALSE(all[0].values[0].number);  // an axis
+    EXPECT_FALSE(all[1].values[3].number);  // a formula
+    EXPECT_EQ(all[2].values[1].number, 90); // the default
+    all[2].values[1].text = "45", all[2].values[1].isGiven = true;
+    EXPECT_EQ(toExpression(all), "twist(axis=y, angle=-30) wave(speed=2*t) bend(angle=45)");
+    EXPECT_THROW(parseDeformers("twist(angle"), Error);
+}
+
 TEST(Deformers, stayToTheBitWhereNothingIsAsked) {
     const Cage cage = cloud();
     for (const std::string expression :

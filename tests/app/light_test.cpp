@@ -63,7 +63,8 @@ TEST_F(LightVerbs, convertEnvironmentsAndSayWhatTheyWere) {
 // Pictures differ by what is asked for, and what is the default changes nothing.
 TEST_F(LightVerbs, areSeenInThePicture) {
     const std::vector<float> usual = drawn("");
-    for (const char* same : {"--shading physical", "--occlusion 0", "--light -25,50", "--light -25 50"})
+    for (const char* same :
+         {"--shading physical", "--occlusion 0", "--environment-azimuth 0", "--light -25,50", "--light -25 50"})
         EXPECT_EQ(drawn(same), usual) << same;
     for (const char* other :
          {"--shading phong", "--shading table", "--shading matcap", "--metallic 1", "--roughness 0",
@@ -82,6 +83,26 @@ TEST_F(LightVerbs, areSeenInThePicture) {
     expectRefused(draw("--metallic 1.1"), Failure::usage, {"0..1"});
     expectRefused(draw("--shading table --table-at vertices --light 1,2 --light 3,4"), Failure::usage, {"one light"});
     expectRefused(draw("--shading matcap", {"--matcap", sky}), Failure::input, {"square", "64 x 32"});
+}
+
+// A quarter of a turn is a picture whose columns are moved by a quarter of its width.
+TEST_F(LightVerbs, turnTheEnvironmentAsItsPictureIsTurned) {
+    const Image before = readImage(sky);
+    Image after = before;
+    for (int y = 0; y < before.height; ++y)
+        for (int x = 0; x < before.width; ++x)
+            std::copy_n(before.at((x + before.width / 4) % before.width, y), before.channels, after.at(x, y));
+    writeImage(folder / "turned.exr", after, SampleType::real);
+    for (const char* material : {"--roughness 0 --metallic 1", "--roughness 1", "--roughness 0.4"}) {
+        const std::vector<float> turned =
+            drawn(std::string("--no-shadows --environment ") + sky + " --environment-azimuth 90 " + material);
+        const std::vector<float> moved = drawn("--no-shadows --environment " + folder / "turned.exr" + " " + material);
+        ASSERT_EQ(turned.size(), moved.size());
+        float most = 0;
+        for (std::size_t i = 0; i < turned.size(); ++i) most = std::max(most, std::abs(turned[i] - moved[i]));
+        EXPECT_LE(most, 1.5f / 255) << material;
+        EXPECT_NE(turned, drawn(std::string("--no-shadows --environment ") + sky + " " + material)) << material;
+    }
 }
 
 TEST_F(LightVerbs, drawBallsAndTables) {

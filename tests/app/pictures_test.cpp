@@ -1,4 +1,6 @@
 // What the options make of a picture.
+#include <set>
+
 #include "program.h"
 
 namespace relief::test {
@@ -101,6 +103,34 @@ TEST_F(Drawn, negativeAnglesAreAngles) {
          {"--light -40,50", "--light 40,50", "--light=-40,-50", "--azimuth -70", "--elevation -30 --azimuth=-70"})
         pictures.emplace_back(options, draw(options));
     expectAllDifferent(pictures, 0.05);
+}
+
+// Light from the eye dims all three channels alike; blue is 150 in a light field and 112 in a dark one.
+TEST_F(Drawn, uvShowsTheFieldsOfTheUnitSquare) {
+    for (const std::string raster : {"hardware", "compute"}) {
+        expectDone(relief(
+            {"render", cagePath("plane"), "-o", folder_ / "uv.png"},
+            "--show uv --background 0,0,0 --elevation 90 --azimuth 0 --fov 1 --size 96,96 --path dice --raster " +
+                raster));
+        const Image image = readImage(folder_ / "uv.png");
+        std::set<std::pair<int, int>> fields;
+        for (int y = 0; y < 96; ++y)
+            for (int x = 0; x < 96; ++x) {
+                const float* c = image.at(x, y);
+                if (c[2] < 0.2f) continue; // the background
+                const vec2 field = (vec2(c[0], c[1]) * 150.0f / c[2] - 45.0f) / 26.0f;
+                const ivec2 nearest(glm::round(field));
+                if (glm::distance(field, vec2(nearest)) > 0.1f || std::min(nearest.x, nearest.y) < 0) continue;
+                fields.insert({nearest.x, nearest.y});
+                // s goes to the right and t up, over the square that the plane takes of the picture.
+                EXPECT_NEAR(nearest.x, x / 12.0 - 0.5, 2);
+                EXPECT_NEAR(nearest.y, 7.5 - y / 12.0, 2);
+            }
+        EXPECT_EQ(fields.size(), 64u) << raster;
+    }
+    writeFile(folder_ / "bare.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+    expectRefused(relief({"render", folder_ / "bare.obj", "-o", folder_ / "no.png"}, "--show uv"), Failure::input,
+                  {"bare.obj", "texture coordinates"});
 }
 
 TEST_F(Drawn, sizeIsWidthThenHeight) {

@@ -127,7 +127,8 @@ TEST(Window, writesWhatRenderWritesAfterEverythingThatAUserDoes) {
     writeFile(folder / "broken.png", "no picture");
     // Turned, moved, zoomed, lit; three files; a picture that cannot be read; all keys; another size; nothing at all.
     std::string lines = "rest\nkey Tab\nmove 90 50\npress left\nmove 110 60\nmove 120 65\nrelease left\nwheel 2\n"
-                        "press middle\nmove 125 60\nrelease middle\npress left control\nmove 130 50\nrelease left\n"
+                        "press right control\nmove 122 65\nrelease right\npress middle\nmove 125 60\nrelease "
+                        "middle\npress left control\nmove 130 50\nrelease left\n"
                         "screenshot " +
                         (folder / "a.png") + "\nreport\n";
     for (const std::string& file : {folder / "waves.png", folder / "sky.hdr", cagePath("ball")})
@@ -244,6 +245,23 @@ TEST(Window, closesWhileAFunctionIsCompiled) {
         relief({"view", cagePath("torus"), "--size", "96,64", "--play", writeSession(folder, "session", lines)}));
     ASSERT_EQ(reports.size(), 1u);
     EXPECT_TRUE(contains(reports[0]["error"], "bad.glsl:1")) << reports[0];
+}
+
+TEST(Window, makesTheCertificateAndRemembersWhatItShowed) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    writeSession(folder, "session",
+                 "rest\nkey K\nrest\nreport\nkey Escape\nreport\ndrop " + cagePath("cube") + "\nrest\nclose\n");
+    const Outcome outcome = shell("RELIEF_CACHE=$IN/cache $RELIEF view " + cagePath("torus") +
+                                      " --size 96,64 --rate 3 --azimuth 10 --play $IN/session",
+                                  folder);
+    const std::vector<nlohmann::json> reports = reportsOf(outcome);
+    ASSERT_EQ(reports.size(), 2u);
+    const Outcome check = relief({"check", cagePath("torus"), "--rate", "3"});
+    EXPECT_EQ(reports[0]["certificate"], check.out);
+    EXPECT_TRUE(contains(check.out, "open edges")) << check.out;
+    EXPECT_EQ(reports[1]["certificate"], "");
+    EXPECT_EQ(readFile(folder / "cache/recent"), cagePath("cube") + "\n" + cagePath("torus") + "\n");
 }
 
 TEST(Window, saysWhyItCannotOpen) {

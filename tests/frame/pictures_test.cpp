@@ -173,7 +173,7 @@ TEST_F(Pictures, areTheSameBitsInHoweverManyPartsTheyAreDrawn) {
     const Surface surface = buildSurface(cage, {.isolation = 3});
     const SurfaceModel model(device(), {.surface = &surface, .cagePositions = cage.positions});
     for (const Path path : {Path::dice, Path::grid})
-        for (const Show show : {Show::shaded, Show::faces, Show::wireframe}) {
+        for (const Show show : {Show::shaded, Show::faces, Show::wireframe, Show::texCoords}) {
             RenderOptions options = optionsFor(cage, show);
             options.path = path;
             options.rate = 5;

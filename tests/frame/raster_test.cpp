@@ -302,8 +302,9 @@ TEST_F(Raster, isAsNearToALargePictureAsTheFixedFunction) {
     compare(scene().plain, Show::shaded, "plain");
     compare(scene().model, Show::shaded, "color map");
     compare(scene().bent, Show::shaded, "bump");
-    for (const auto& [show, name] : {std::pair(Show::normal, "normal"), std::pair(Show::height, "height"),
-                                     std::pair(Show::rate, "rate"), std::pair(Show::faces, "faces")})
+    for (const auto& [show, name] :
+         {std::pair(Show::normal, "normal"), std::pair(Show::height, "height"), std::pair(Show::rate, "rate"),
+          std::pair(Show::faces, "faces"), std::pair(Show::texCoords, "uv")})
         compare(scene().model, show, name);
 }
 
