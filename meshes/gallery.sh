@@ -89,6 +89,14 @@ set -- --color 0.75,0.75,0.72 --size 400,400 -q
 "$relief" render "$meshes/strawberry.obj" --height "$out/baked.exr" --edge-pixels 1 "$@" -o "$out/bake_displaced.png"
 rm -f "$out/sculpt.obj" "$out/baked.exr"
 
+# The same strawberry cut open and spread over a square: the normals there, and what three mips show.
+"$relief" geometry-image "$meshes/strawberry.obj" --height "$maps/strawberry.exr" --size 257 -q -o "$out/spread.exr" \
+    --picture "$out/geometry_image.png"
+for mip in 2 1 0; do
+    "$relief" render "$out/spread.exr" --mip $mip "$@" -o "$out/geometry_image_$mip.png"
+done
+rm -f "$out/spread.exr"
+
 # Per frame only the cage's 1958 points go to the device.
 "$relief" animate "$meshes/octopus.obj" --map-format unorm16 --height "$maps/octopus.exr" --albedo "$maps/octopus_albedo.png" \
     --deform "twist(axis=y, angle=35*sin(pi*t)) wave(axis=x, amplitude=0.035, wavelength=0.5, speed=0.25, along=y) \

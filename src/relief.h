@@ -11,6 +11,7 @@
 #include "doctor/doctor.h"
 #include "formula/formula.h"
 #include "frame/frame.h"
+#include "geometry_image/geometry_image.h"
 #include "gpu/gpu.h"
 #include "light/light.h"
 #include "maps/maps.h"

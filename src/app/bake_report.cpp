@@ -18,26 +18,25 @@ std::string sizeOf(const BakeReport& report) {
 
 double percent(double part, double whole) { return whole > 0 ? 100 * part / whole : 0; }
 
-std::string lineOf(const BakeReport& report, const char* name, const SampledDistance& distance) {
+} // namespace
+
+std::string describeDistance(const char* name, const SampledDistance& distance, double unit, double diagonal) {
     const auto both = [&](double length) {
-        return fmt::format("{:.4g} ({:.4f} %)", length * report.unit, percent(length * report.unit, report.diagonal));
+        return fmt::format("{:.4g} ({:.4f} %)", length * unit, percent(length * unit, diagonal));
     };
     return fmt::format("{:<18} RMS {}, 95 % within {}, at most {}\n", name, both(distance.rms), both(distance.share95),
                        both(distance.max));
 }
 
-nlohmann::json toJson(const BakeReport& report, const SampledDistance& distance) {
-    const double unit = report.unit;
+nlohmann::json distanceToJson(const SampledDistance& distance, double unit, double diagonal) {
     return {{"rms", distance.rms * unit},
             {"mean", distance.mean * unit},
             {"share95", distance.share95 * unit},
             {"max", distance.max * unit},
-            {"rms_percent", percent(distance.rms * unit, report.diagonal)},
-            {"share95_percent", percent(distance.share95 * unit, report.diagonal)},
-            {"max_percent", percent(distance.max * unit, report.diagonal)}};
+            {"rms_percent", percent(distance.rms * unit, diagonal)},
+            {"share95_percent", percent(distance.share95 * unit, diagonal)},
+            {"max_percent", percent(distance.max * unit, diagonal)}};
 }
-
-} // namespace
 
 double BakeReport::rms() const {
     return unit * std::max(certificate.distance.forth.rms, certificate.distance.back.rms);
@@ -53,8 +52,8 @@ std::string toText(const BakeReport& report) {
     text += fmt::format("{:<18} {:.6g} to {:.6g}; --mid {:.9g} --scale {:.9g}\n", "heights", report.lowest,
                         report.highest, report.mid, report.scale);
     const BakeCertificate& certificate = report.certificate;
-    text += lineOf(report, "surface to sculpt", certificate.distance.forth);
-    text += lineOf(report, "sculpt to surface", certificate.distance.back);
+    text += describeDistance("surface to sculpt", certificate.distance.forth, report.unit, report.diagonal);
+    text += describeDistance("sculpt to surface", certificate.distance.back, report.unit, report.diagonal);
     text += fmt::format("{:<18} {:.3f} % of the area\n", "missed", 100 * certificate.missedShare);
     text += fmt::format("{:<18} {:.3f} % of the area, behind the back of another sheet\n", "wrong sheet",
                         100 * certificate.behindShare);
@@ -82,8 +81,8 @@ nlohmann::json toJson(const BakeReport& report) {
                        {"lowest", report.lowest},
                        {"highest", report.highest},
                        {"diagonal", report.diagonal},
-                       {"surface_to_sculpt", toJson(report, certificate.distance.forth)},
-                       {"sculpt_to_surface", toJson(report, certificate.distance.back)},
+                       {"surface_to_sculpt", distanceToJson(certificate.distance.forth, report.unit, report.diagonal)},
+                       {"sculpt_to_surface", distanceToJson(certificate.distance.back, report.unit, report.diagonal)},
                        {"missed_share", certificate.missedShare},
                        {"wrong_sheet_share", certificate.behindShare},
                        {"folded_share", certificate.foldedShare},

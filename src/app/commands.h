@@ -22,6 +22,7 @@ Run addNormalMap(CLI::App& app);
 Run addHeightMap(CLI::App& app);
 Run addMap(CLI::App& app);
 Run addBake(CLI::App& app);
+Run addGeometryImage(CLI::App& app);
 Run addEnvironment(CLI::App& app);
 Run addMatcap(CLI::App& app);
 Run addShadingTable(CLI::App& app);

@@ -10,6 +10,7 @@
 #include "app/output.h"
 #include "app/picture_options.h"
 #include "base/clock.h"
+#include "geometry_image/geometry_image.h"
 
 namespace relief::app {
 namespace {
@@ -29,6 +30,24 @@ struct Exported {
     std::uint64_t sampleCount = 0;
     double loadSeconds = 0, surfaceSeconds = 0, rateMs = 0, diceMs = 0, writeSeconds = 0;
 };
+
+/// The mesh of a geometry image, with each point once: no device is needed for it.
+Exported sew(const ExportArgs& args) {
+    const double start = secondsNow();
+    const ObjectDesc& desc = args.scene.object;
+    if (desc.subdivision || !desc.height.path.empty() || !desc.height.function.empty() || !desc.motion.isStill())
+        fail(Failure::usage,
+             "{}: the triangles of a geometry image are exported as they are, without heights and poses", desc.cage);
+    const GeometryImage image = readGeometryImage(desc.cage);
+    if (desc.mip.value_or(0) >= image.mipCount())
+        fail(Failure::usage, "{}: --mip {} is none of its mips, which are 0 to {}", desc.cage, *desc.mip,
+             image.mipCount() - 1);
+    Exported exported{.mesh = toMesh(image, desc.mip.value_or(0))};
+    exported.sampleCount = exported.mesh.positions.size();
+    checkMeshSize(args.target, exported.sampleCount, exported.mesh.indices.size() / 3, false);
+    exported.loadSeconds = secondsNow() - start;
+    return exported;
+}
 
 EdgeRates computeRates(Device& device, const SurfaceModel& model, const LoadedObject& object, const ExportArgs& args,
                        double& rateMs) {
@@ -93,8 +112,9 @@ void report(const ExportArgs& args, const Exported& exported) {
                    {"write_ms", 1e3 * exported.writeSeconds}});
     } else if (!args.output.isQuiet) {
         // One line for people, and a second one with the time of every step.
-        std::cerr << fmt::format("{}: {} vertices, {} triangles, {}, diced on {}\n", args.target, vertexCount,
-                                 triangleCount, humanBytes(bytes), exported.device);
+        std::cerr << fmt::format("{}: {} vertices, {} triangles, {}, {}\n", args.target, vertexCount, triangleCount,
+                                 humanBytes(bytes),
+                                 exported.device.empty() ? "sewn on the host" : "diced on " + exported.device);
         if (args.output.isVerbose)
             std::cerr << fmt::format(
                 "load {:.0f} ms, surface {:.0f} ms, rates {:.1f} ms, dicing {:.1f} ms, writing {:.0f} ms, {} samples\n",
@@ -106,7 +126,7 @@ void report(const ExportArgs& args, const Exported& exported) {
 int exportMesh(const ExportArgs& args) {
     checkMeshPath(args.target);
     checkOutput(args.target, listFiles(args.scene));
-    Exported exported = dice(args);
+    Exported exported = lowerExtension(args.scene.object.cage) == ".exr" ? sew(args) : dice(args);
     // OBJ has each position once already, and texture coordinates beside it.
     if (args.weldsPositions && lowerExtension(args.target) != ".obj") exported.mesh = weldPositions(exported.mesh);
     malloc_trim(0);

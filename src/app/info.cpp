@@ -8,6 +8,7 @@
 #include "app/object_options.h"
 #include "app/output.h"
 #include "check/check.h"
+#include "geometry_image/geometry_image.h"
 
 namespace relief::app {
 namespace {
@@ -167,6 +168,23 @@ json describeFaces(const ImageInfo& info, const std::string& path) {
             {"map_topology", fmt::format("{:016x}", faces.topology)}};
 }
 
+/// What the header of a geometry image says, and how its meshes are.
+json describeGeometryImage(const std::string& path) {
+    const GeometryImage image = readGeometryImage(path);
+    json vertices = json::array(), openEdges = json::array();
+    for (int mip = 0; mip < image.mipCount(); ++mip) {
+        const DenseMesh mesh = toMesh(image, mip);
+        vertices.push_back(mesh.positions.size());
+        openEdges.push_back(findFaults(mesh.indices).openEdges);
+    }
+    return {{"geometry_image", true},
+            {"geometry_image_mips", image.mipCount()},
+            {"geometry_image_paths", image.sewing.paths.size()},
+            {"mesh_vertices", vertices},
+            {"mesh_open_edges", openEdges},
+            {"bounds", boundsToJson(image.coordinates.toWorld(computeBounds(image.positions)))}};
+}
+
 json describePicture(const std::string& path) {
     if (findTilePattern(path)) return describeTiles(path);
     const ImageInfo info = readImageInfo(path);
@@ -184,6 +202,7 @@ json describePicture(const std::string& path) {
                 {"default_mid", info.hasUnit() ? 0.0 : 0.5},
                 {"map_format", wordOf(kMapFormats, format)},
                 {"map_bytes", mapBytes(format, info.width, info.height)}};
+    if (isGeometryImage(info)) result.update(describeGeometryImage(path));
     if (isFaceMap(info)) result.update(describeFaces(info, path));
     if (info.noData) result["no_data"] = fmt::format("{}", *info.noData);
     result.update(describeTexels(path, info));

@@ -43,6 +43,7 @@ constexpr Command kCommands[] = {
     {"height-map", "make a height map of a normal map", app::addHeightMap},
     {"map", "make a map per face of a height map, or the other way round", app::addMap},
     {"bake", "make a height map of a sculpt over a cage, with a certificate", app::addBake},
+    {"geometry-image", "spread a surface over a square picture of its points", app::addGeometryImage},
     {"environment", "turn a picture of an environment into another shape, or blur it", app::addEnvironment},
     {"matcap", "draw a ball of a material in light, for --shading matcap", app::addMatcap},
     {"shading-table", "write the table of --shading table", app::addShadingTable},

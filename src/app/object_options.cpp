@@ -143,9 +143,14 @@ void addMotion(CLI::App& app, MotionDesc& motion) {
 } // namespace
 
 void addObject(CLI::App& app, ObjectDesc& object) {
-    app.add_option("cage", object.cage, "control cage, or mesh of triangles: .obj .gltf .glb")
+    app.add_option("cage", object.cage, "control cage, or mesh of triangles: .obj .gltf .glb; or geometry image: .exr")
         ->required()
         ->option_text("CAGE");
+    listIn("surface", "K",
+           app.add_option("--mip", object.mip,
+                          "of a geometry image: every 2^K-th sample (default: 0; render: as many samples as there are "
+                          "pixels)")
+               ->check(CLI::Range(0, 12)));
     addHeightedSurface(app, object);
     addMotion(app, object.motion);
 }

@@ -119,7 +119,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     // Loading a driver takes its time: it does so while files are read.
     std::future<std::unique_ptr<Device>> opening =
         std::async([&] { return std::make_unique<Device>(DeviceDesc{.name = args.picture.device}); });
-    LoadedScene loaded = load(args.scene, CageState::posed, warn);
+    LoadedScene loaded = load(withFittingMip(args.scene), CageState::posed, warn);
     progress.advance();
     std::unique_ptr<Device> opened;
     if (loaded.object.function) { // what it displaces by is known to the device alone

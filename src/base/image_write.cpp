@@ -52,12 +52,13 @@ void writeImage(const std::string& path, const Image& image, SampleType sample, 
     encode(path, image, {format, sample, {}, "", attributes});
 }
 
-void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels) {
+void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels,
+                const ImageAttributes& attributes) {
     const std::string format = chooseFormat(path, SampleType::real);
     if (format != "openexr") fail(Failure::usage, "{}: channels of their own names are written as .exr", path);
     if (channels.size() != std::size_t(image.channels))
         fail(Failure::internal, "{}: {} names for {} channels", path, channels.size(), image.channels);
-    encode(path, image, {format, SampleType::real, channels, "", {}});
+    encode(path, image, {format, SampleType::real, channels, "", attributes});
 }
 
 } // namespace relief

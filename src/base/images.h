@@ -138,7 +138,8 @@ struct ImageChannel {
 };
 
 /// Writes an .exr whose channels have names and sample types of their own: `channels` has one entry per channel of the
-/// image. Throws as the other writeImage does.
-void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels);
+/// image. `attributes`: text in its header. Throws as the other writeImage does.
+void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels,
+                const ImageAttributes& attributes = {});
 
 } // namespace relief

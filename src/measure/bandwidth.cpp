@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "measure/compression.h"
+#include "measure/geometry_images.h"
 #include "measure/pictures.h"
 
 namespace relief {
@@ -55,16 +56,19 @@ public:
     BandwidthSuite(SuiteContext& context, const TestScene& scene)
         : context_(context), study_(context.device, scene, context.options.isQuick ? 6e4 : 1e6,
                                     context.options.isQuick ? 40'000 : 100'000),
+          images_(study_, context.options.isQuick ? 150e3 : 250e3, context.options.isQuick ? 513 : 1025),
           pictures_(context, study_), cageFileBytes_(double(measureCageFile(scene.cage))) {}
 
     void run() {
         const std::vector<double> tolerances = chooseTolerances();
         makeSimplified(tolerances.back());
+        if (!images_.complaint().empty()) context_.results.notes.push_back("bandwidth: " + images_.complaint());
         for (const double tolerance : tolerances) {
             std::vector<Entry> entries;
             for (const FormatMethod& method : kFormatMethods) addSurface(entries, tolerance, method);
             addDense(entries, tolerance);
             addSimplified(entries, tolerance);
+            if (images_.complaint().empty()) addImage(entries, tolerance);
             pictures_.compare(tolerance, listPictures(entries, tolerance == tolerances.front()));
             for (const Entry& entry : entries) addRow(entry, tolerance);
             context_.progress.advance();
@@ -243,6 +247,20 @@ private:
         addDraco(entries, methods.draco, mesh.first, tolerance);
     }
 
+    /// The smallest geometry image. Its triangles are drawn as a mesh: the times of that are not its own.
+    void addImage(std::vector<Entry>& entries, double tolerance) {
+        const MeasuredImage* found = images_.findSmallest(tolerance);
+        if (found == nullptr) return addNote(toWord(Method::geometryImage), tolerance);
+        const std::uint64_t bytes = geometryImageBytes(found->image.size);
+        Entry entry{.method = Method::geometryImage, .error = found->error, .mesh = toMesh(found->image)};
+        entry.triangles = entry.mesh->indices.size() / 3;
+        entry.residentBytes = entry.uploadedBytes = double(bytes);
+        entry.diskBytes = double(measureImageFile(found->image));
+        entry.traffic = {.cached = bytes, .uncached = 3 * entry.triangles * 2 * sizeof(vec3)};
+        entry.details = {makeDetail(Metric::imageColumns, found->image.size)};
+        entries.push_back(std::move(entry));
+    }
+
     /// Encodes a mesh with as few bits as the tolerance allows.
     void addDraco(std::vector<Entry>& entries, Method method, const DenseMesh& mesh, double tolerance) {
         for (int bits = 8; bits <= 18; ++bits) {
@@ -315,6 +333,7 @@ private:
 
     SuiteContext& context_;
     CompressionStudy study_;
+    GeometryImageStudy images_;
     PictureComparison pictures_;
     double cageFileBytes_;
     std::vector<std::pair<DenseMesh, MeshError>> simplified_;

@@ -22,6 +22,7 @@ LineStyle chooseStyle(Method method) {
     case Method::simplifiedRaw: return {2, 0};
     case Method::simplifiedQuantised: return {2, 1};
     case Method::simplifiedDraco: return {2, 2};
+    case Method::geometryImage: return {3, 0};
     case Method::grid: return {3, 1};
     case Method::dicing: return {4, 2};
     case Method::dicingInCompute: return {4, 0};

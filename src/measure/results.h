@@ -25,8 +25,8 @@ enum class Metric {
     // Bytes.
     residentBytes, diskBytes, bytesReadCached, bytesReadUncached, uploadedBytes,
     // Errors, and the compression that meets a tolerance.
-    rmsError, hausdorffError, pictureRmse, picturePsnr, mapColumns, rate, isolation, positionBits, mapFileExrZip,
-    mapFileExrPiz, mapFilePng, mapFileBlocks,
+    rmsError, hausdorffError, pictureRmse, picturePsnr, mapColumns, rate, isolation, positionBits, imageColumns,
+    mapFileExrZip, mapFileExrPiz, mapFilePng, mapFileBlocks,
     // Costs per triangle and per face.
     costPerTriangle, costPerAdditionalTriangle, tableTime, uploadTime, preparationPerFace,
     // Memory of a process.
@@ -50,6 +50,7 @@ const MetricInfo& describe(Metric metric);
 enum class Method {
     cageFloatMap, cageHalfMap, cageUnorm16Map, cageUnorm8Map, cageBc4Map,
     denseRaw, denseQuantised, denseDraco, simplifiedRaw, simplifiedQuantised, simplifiedDraco,
+    geometryImage,
     tessellation, grid, dicing, dicingInCompute, denseInCompute,
     posedCage, posedCageTessellation, posedCageDicing, denseSkinnedOnDevice, densePosedOnHost,
     preparation, reliefRender,

@@ -61,6 +61,9 @@ coordinates as 32-bit floats, 32 bytes per vertex, and 32-bit indices. Quantised
 and 16-bit texture coordinates, 12 bytes per vertex, triangles and vertices in an order made for caches. Simplified by
 meshoptimizer in steps of a square root of two. Draco at the speed of its own encoder program, 8 bits for normals, 12 for texture
 coordinates.</li>
+<li><b>Geometry image.</b> The surface cut open and spread over a square, its positions and normals on a grid as 32-bit floats,
+24 bytes per sample, without indices: the smallest one within the tolerance of those that are sampled from one parametrisation of
+a mesh of some 250,000 triangles. On disk: the EXR file.</li>
 <li><b>Bytes read per frame, cached.</b> Every resident byte once. Diced triangles are written to memory and read again.</li>
 <li><b>Bytes read per frame, uncached.</b> A dense mesh: 32 bytes for every invocation of the vertex shader that the device
 counted (three per triangle where nothing was counted), and its indices. A surface: for every evaluation the records of face and

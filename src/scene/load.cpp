@@ -74,6 +74,8 @@ void checkAllVectors(const ObjectDesc& desc) {
 }
 
 Cage readObjectCage(const ObjectDesc& desc, const Warn& warn) {
+    if (lowerExtension(desc.cage) == ".exr") return readGeometryImageCage(desc);
+    if (desc.mip) fail(Failure::usage, "{}: --mip is of geometry images (.exr)", desc.cage);
     if (desc.uvSet == 0) return readCage(desc.cage, warn);
     const std::string extension = lowerExtension(desc.cage);
     if (extension != ".gltf" && extension != ".glb")

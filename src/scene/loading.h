@@ -5,6 +5,10 @@
 
 namespace relief {
 
+/// The triangles of a geometry image: polygons with normals, whose texture coordinates are places in the image.
+/// Throws as readGeometryImage does, and Failure::usage for a mip that it does not have.
+Cage readGeometryImageCage(const ObjectDesc& desc);
+
 /// Applies ObjectDesc::placement to the texture coordinates of a cage, in double precision: repeat * (s,t) + offset.
 /// Throws Failure::input for a cage without texture coordinates, Failure::usage for an object with a set of tiles.
 void placeTexCoords(Cage& cage, const ObjectDesc& desc);

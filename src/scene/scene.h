@@ -58,6 +58,7 @@ struct ObjectDesc {
     std::optional<int> isolation;           ///< default: neededIsolation()
     EndCapKind endCaps = EndCapKind::exact;
     std::optional<Distance> weld; ///< joins boundary vertices at most so far apart; default: vertices stay as they are
+    std::optional<int> mip;       ///< of a geometry image; default 0
     std::uint32_t uvSet = 0;      ///< texture coordinates of glTF files: TEXCOORD_n
     MapPlacement placement;       ///< of all maps: it is applied to the texture coordinates of the cage
     HeightDesc height;
@@ -137,6 +138,8 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn);
 
 /// Loads the object and the environment of a scene. Warns of subdivision tags on polygons that are drawn themselves.
 LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
+/// The scene with the coarsest mip of a geometry image whose quads are a pixel long at most, where no mip is named.
+SceneDesc withFittingMip(const SceneDesc& desc);
 
 /// Frees what the device holds by now: the surface's tables, maps, textures, dense polygons. The cage and its motion
 /// stay.
