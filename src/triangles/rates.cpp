@@ -18,6 +18,10 @@ namespace {
 
 constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
 
+/// Of a segment, the length of a texel of the level that it reads, where fragments show all slopes. A coarser level
+/// would take from the positions what linear triangles could show; what aliases moves points, and bends no normal.
+constexpr float kBumpedSegmentShare = 0.25f;
+
 /// Most segments per edge of hardware tessellation: an even number.
 std::uint32_t tessellatorLimit(const DeviceTraits& traits) {
     constexpr std::uint32_t kMost = 64; // on any device
@@ -41,6 +45,12 @@ std::uint32_t cornerOf(const SurfaceModel& model, std::uint32_t sideEntry) {
     return model.edges[edge + ((sideEntry & kSideSplit) != 0 ? 1 : 0)].corners[1];
 }
 
+/// Whether the surface is displaced and fragments show the slopes that its triangles lack.
+bool showsAllSlopes(const SurfaceModel& model) {
+    if (model.function) return model.functionMovesSurface && model.functionBendsNormals;
+    return model.height.has_value() && model.pictures.slopes.has_value();
+}
+
 } // namespace
 
 bool isCutShort(const TriangleOptions& options, const DeviceTraits& traits, std::uint32_t maxRate) {
@@ -62,6 +72,7 @@ struct EdgeRater::Parts {
     struct Measure {
         const char* file;
         std::size_t floatCount = 1;
+        bool refinesOutlines = false;
         const TexelBuffer* edgeHeights = nullptr;
         double* milliseconds = nullptr; ///< device time, if measured
     };
@@ -93,6 +104,7 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceM
     // One submission with the copy to the host: plans of draws wait for the numbers.
     ShaderConstants constants = constantsOf(model, NormalKind::limit);
     constants.wantsTexCoords = what.floatCount > 1;
+    constants.hasSlopes = what.refinesOutlines;
     const Pipeline& pipeline = stages.pipeline(what.file, model, constants);
     const Download download(device, numbers.size() * sizeof(float));
     const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
@@ -156,18 +168,23 @@ std::vector<float> EdgeRater::Parts::measureRates(const SurfaceModel& model, con
     for (std::size_t i = 0; i < edges.size(); ++i) ranges[i] = edges[i].heightRange;
     const TexelBuffer heights =
         uploadTexels(device, {.name = "edge heights"}, VK_FORMAT_R32_SFLOAT, std::as_bytes(std::span(ranges)));
-    return measure({.file = "rates.comp", .edgeHeights = &heights, .milliseconds = milliseconds}, model, inputs);
+    return measure({.file = "rates.comp",
+                    .refinesOutlines = showsAllSlopes(model),
+                    .edgeHeights = &heights,
+                    .milliseconds = milliseconds},
+                   model, inputs);
 }
 
 /// Mip level per corner: the mean, over the edges that meet there, of log2(texels per segment), at least 0. Empty where
-/// all are 0.
+/// all are 0. Texels are smaller than segments where fragments show all slopes.
 std::vector<float> EdgeRater::Parts::cornerLevels(const SurfaceModel& model, const EdgeRates& rates) {
     if (!model.height) return {};
+    const float segmentShare = showsAllSlopes(model) ? kBumpedSegmentShare : 1;
     const std::vector<EdgeFootprint>& edges = edgeFootprints(model);
     std::vector<float> levels(model.cornerFlags.size(), 0), counts(model.cornerFlags.size(), 0);
     bool isAny = false;
     for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-        const float perSegment = edges[edge].texels / rates.rates[edge];
+        const float perSegment = segmentShare * edges[edge].texels / rates.rates[edge];
         const float level = perSegment > 1 ? std::log2(perSegment) : 0; // NaN compares false
         isAny = isAny || level > 0;
         for (const std::uint32_t corner : model.edges[edge].corners) levels[corner] += level, ++counts[corner];
