@@ -10,10 +10,6 @@ RELIEF_TABLE(kBindEdgeHeights, float, edgeHeightRange)
 const float kOutlineSegment = 0.25; // the length of segments at outlines, in those of others
 const float kOutlineCosine = 0.3;   // of the angle at which segments begin to be shorter
 
-#ifndef RELIEF_HEIGHT_FUNCTION
-layout(constant_id = kIdHasSlopes) const bool kHasSlopes = false; // fragments show the slopes that triangles are too large for
-#endif
-
 // Where fragments show all slopes, large triangles are seen at outlines only: of the surface, and of its relief, which hides more of
 // itself the more aslant it is seen. Segments there are up to four times as short. `facing`: the least cosine between the line of sight
 // and the limit normal, along an edge.

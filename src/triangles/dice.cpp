@@ -180,7 +180,8 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
     constants.hasTexGradients = options.wantsTexGradients;
-    constants.hasSlopes = options.wantsTexGradients && model.functionBendsNormals;
+    constants.hasSlopes =
+        options.wantsTexGradients && (model.functionBendsNormals || model.pictures.slopes.has_value());
     constants.hasMips = rates.hasMips();
     constants.readsNodes = readsNodes(model, rates);
     constants.groupSize = device.traits().smallGroup;

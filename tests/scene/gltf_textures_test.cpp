@@ -152,6 +152,7 @@ TEST_F(GltfTextures, thatMaterialsUseInOtherWaysAreThoseOfTheFirst) {
     EXPECT_TRUE(warnings_.lines.empty()) << warnings_.lines.front();
     file.json["materials"][0]["name"] = "skin";
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 1};
+    file.json["materials"][1]["name"] = "skin"; // names do not tell them apart
     file.json["materials"][1]["normalTexture"]["scale"] = 2;
     const LoadedObject object = loadFile(file);
     EXPECT_EQ(object.textureColor.value(), vec3(0.5f, 0.25f, 1));
