@@ -32,6 +32,10 @@ bool readsTexCoords() {
     return kHasTexCoords && ((kHasHeight && kMapAddressing != kMapOfFaces) || kWantsTexCoords || kHasTexGradients);
 }
 
+// Forms of patches that no patch has fold away when a pipeline is made. A bit per type.
+layout(constant_id = kIdPatchTypes) const uint kPatchTypes = 0u;
+bool hasPatches(uint type) { return (kPatchTypes >> type & 1u) != 0u; }
+
 layout(constant_id = kIdGenericBasis) const bool kGenericBasis = false; // only where RELIEF_GENERIC_BASIS is defined
 
 struct LimitFrame {
@@ -117,10 +121,10 @@ LimitFrame generic(ControlPoints points, vec2 uv) {
 // The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it (in x and y).
 LimitFrame patchFrame(ControlPoints points, vec2 uv) {
 #ifdef RELIEF_TRIANGLES
-    if (points.type == kPatchExactTriangle) return exactCap(points, uv);
+    if (hasPatches(kPatchExactTriangle) && points.type == kPatchExactTriangle) return exactCap(points, uv);
     return trianglePatch(points, uv);
 #else
-    if (points.type == kPatchExactQuad) return exactCap(points, uv);
+    if (hasPatches(kPatchExactQuad) && points.type == kPatchExactQuad) return exactCap(points, uv);
 #ifdef RELIEF_GENERIC_BASIS
     if (kGenericBasis) return generic(points, uv);
 #endif
@@ -128,8 +132,9 @@ LimitFrame patchFrame(ControlPoints points, vec2 uv) {
         if (isTexture(points)) return regularTexture(points, uv);
         return regular(points, uv);
     }
-    if (points.type == kPatchQuads) return bilinear(points, uv);
-    return gregory(points, uv);
+    if (hasPatches(kPatchQuads) && points.type == kPatchQuads) return bilinear(points, uv);
+    if (hasPatches(kPatchGregory)) return gregory(points, uv);
+    return kNoFrame;
 #endif
 }
 

@@ -56,7 +56,7 @@ void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2
 LimitFrame trianglePatch(ControlPoints points, vec2 uv) {
     Weights w;
     int count = 18;
-    if (points.type == kPatchGregoryTriangle) {
+    if (hasPatches(kPatchGregoryTriangle) && points.type == kPatchGregoryTriangle) {
         Osd_EvalBasisGregoryTri(uv.x, uv.y, w.p, w.du, w.dv, w.duu, w.duv, w.dvv);
         float u = uv.x, v = uv.y, t = 1.0 - u - v;
         addQuotientRule(w, 3, u, v, vec2(1, 0), vec2(0, 1));

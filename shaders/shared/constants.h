@@ -45,7 +45,8 @@ RELIEF_CONSTANT uint kIdMapAddressing = 32u;      // kMapOf... of shared/maps.h
 RELIEF_CONSTANT uint kIdReadsNodes = 33u;         // every sample lies on a node of a map per face, see heights.glsl
 RELIEF_CONSTANT uint kIdHasPictureTiles = 34u;    // pictures cover more than the unit square, see lookup.glsl
 RELIEF_CONSTANT uint kIdVectorSpace = 35u;        // kVector...
-RELIEF_CONSTANT uint kIdCount = 36u;
+RELIEF_CONSTANT uint kIdPatchTypes = 36u;         // bit t: some patches are of type t (kPatch...), or their texture's
+RELIEF_CONSTANT uint kIdCount = 37u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

@@ -138,6 +138,7 @@ void writeCache(const AnimateArgs& args, Report& report, const Warn& warn) {
             fail(Failure::usage, "{}: a point cache has every frame of a range; --frames {} skips some", args.target,
                  args.animation.frames);
 
+    // Caches hold floats in world coordinates: far from the origin they are coarse, which is said.
     warnOfCoarseFloats(args.target, cage, animation->coordinates().origin, warn);
     const CacheHeader header{std::uint32_t(cage.positions.size()), std::uint32_t(frames.size()), double(frames[0]),
                              motion.cache.fps};

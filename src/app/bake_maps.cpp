@@ -94,6 +94,7 @@ struct BakedTile {
 
 /// Writes the heights of all tiles with one scale, and returns them as they are in the files.
 HeightMap storeHeights(const BakeArgs& args, const BakePair& pair, std::vector<BakedTile> tiles, const Warn& warn) {
+    // One range over all tiles: integers of every file mean the same heights.
     double lowest = INFINITY, highest = -INFINITY;
     for (const BakedTile& tile : tiles) {
         const auto [low, high] = std::ranges::minmax(tile.heights);
@@ -105,6 +106,7 @@ HeightMap storeHeights(const BakeArgs& args, const BakePair& pair, std::vector<B
     const bool isSet = findTilePattern(args.target).has_value();
     const Wrap wrap = isSet ? Wrap::clamp : args.object.height.wrap.value_or(Wrap::repeat);
 
+    // Tiles are encoded and written one by one; what the files hold is kept for the certificate.
     std::vector<HeightMap> maps;
     std::vector<ivec2> places;
     std::uint64_t clippedCount = 0;
@@ -175,6 +177,7 @@ void addCounts(BakedHeights& sum, const BakedHeights& part) {
 
 HeightMap bakePictures(const BakeArgs& args, const BakePair& pair, const BakeOptions& options, BakeReport& report) {
     const Warn warn = makeWarn(args.output.isQuiet);
+    // A single map is a set of one tile at the origin.
     const bool isSet = findTilePattern(args.target).has_value();
     const std::vector<ivec2> places = isSet ? findTilesOfFaces(pair.reference) : std::vector<ivec2>{ivec2(0)};
     checkTiles(args, places);
@@ -188,6 +191,7 @@ HeightMap bakePictures(const BakeArgs& args, const BakePair& pair, const BakeOpt
                                .wrap = isSet ? Wrap::clamp : args.object.height.wrap.value_or(Wrap::repeat),
                                .origin = dvec2(place)});
         BakedHeights baked = bakeHeights(pair.reference, pair.sculpt, texels, options);
+        // Islands that overlap or are too small are the same in all maps of a tile: said once.
         if (place == places.front() || texels.overlap().sampleCount > 0) warnOfIslands(args, texels, warn);
         addCounts(report.baked, baked);
         report.overlap.sampleCount += texels.overlap().sampleCount;

@@ -100,6 +100,7 @@ void checkKind(const BakeArgs& args) {
     if (!args.perFace) {
         if (args.faceSize || args.texelSize)
             fail(Failure::usage, "{} is for maps with --per-face", args.faceSize ? "--face-size" : "--texel-size");
+        // Over texture coordinates: one map, or a set of tiles, and then all files are sets.
         const bool isSet = findTilePattern(args.target).has_value();
         if (isSet && args.object.height.wrap)
             fail(Failure::usage, "{}: a set of tiles does not repeat; omit --wrap", args.target);
@@ -111,6 +112,7 @@ void checkKind(const BakeArgs& args) {
                 fail(Failure::usage, "{} and {}: all maps are sets of tiles, or none is", args.target, path);
         return;
     }
+    // Per face: the size comes from the face, and heights alone are written, as floats.
     if (args.checksOnly) fail(Failure::usage, "--check reads from the map's header whether it is one per face");
     if (args.faceSize && args.texelSize) fail(Failure::usage, "--face-size and --texel-size: give one of them");
     if (args.faceSize && !std::has_single_bit(unsigned(*args.faceSize)))

@@ -147,6 +147,7 @@ Certificate certify(const CheckArgs& args, LoadedObject& object) {
                                                  : object.height ? object.height->heightBound()
                                                                  : 0,
                             .coordinates = object.coordinates()};
+    // Points of the surface against the reference, then the triangles of each path.
     const std::optional<Picture> heatmap = checkPoints(device, model, object, args, certificate);
     progress.advance();
 

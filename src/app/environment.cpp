@@ -69,6 +69,7 @@ int convertFile(const EnvironmentArgs& args) {
     if (isCaptured == args.scene.object.cage.empty())
         fail(Failure::usage, "name an environment to convert, or a scene with --from CAGE --at X,Y,Z");
     if (isCaptured && !args.at) fail(Failure::usage, "--from needs --at X,Y,Z: the point to see the scene from");
+    // What can be refused is refused before anything is read or drawn. Six files, or a scene, are a cube by default.
     const SampleType sample = chooseSample(args.target);
     const std::vector<std::string> targets = listEnvironmentFiles(args.target);
     const bool isCube = targets.size() > 1 || isCaptured;
@@ -85,6 +86,7 @@ int convertFile(const EnvironmentArgs& args) {
     const CubeLayout layout = targets.size() > 1 ? CubeLayout::files : args.layout;
     writeEnvironment(args.target, picture, layout, sample);
 
+    // Captured faces have the size that was asked for; what is read is described as its file was understood.
     const std::string from = isCaptured ? args.scene.object.cage : describe(file.picture, file.layout);
     const std::string to = describe(picture, layout);
     if (args.isJson)

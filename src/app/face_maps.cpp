@@ -83,6 +83,7 @@ int convertMap(const ConversionArgs& args) {
         fail(Failure::usage, "--segments {}: a face has 1, 2, 4, ... {} segments per side", *args.segments,
              kMostSegments);
     checkOutput(args.target, listFiles(args.object));
+    // The object carries the map in the addressing of its file, which decides the direction.
     const LoadedObject object = load(args.object, CageState::posed, makeWarn(args.isQuiet));
     if (object.dense)
         fail(Failure::usage, "{}: maps per face are for subdivision surfaces; name its --scheme", args.object.cage);
@@ -96,6 +97,7 @@ int convertMap(const ConversionArgs& args) {
                                      image.height);
         return 0;
     }
+    // From texture coordinates to faces.
     const HeightMap faces = makeFaces(object, args.segments);
     saveFaceMap(args.target, faces);
     const std::size_t nodes = [&] {

@@ -69,6 +69,7 @@ LayerDesc parseLayer(const std::string& word) {
     for (const std::string& part : CLI::detail::split(word, ',')) {
         const std::size_t equals = part.find('=');
         const std::string key = part.substr(0, equals);
+        // Parts without an equals sign before the first key belong to the name of the file.
         if (layer.path.empty() || (seen.empty() && equals == std::string::npos)) { // names of files may hold commas
             layer.path += (layer.path.empty() ? "" : ",") + part;
             continue;
@@ -104,6 +105,7 @@ LayerDesc parseLayer(const std::string& word) {
     if (!isRepeat(layer.placement.repeat.x) || !isRepeat(layer.placement.repeat.y))
         fail(Failure::usage, "--layer {}: repeat= is a number from -{} to {}, other than 0", word, kMostRepeats,
              kMostRepeats);
+    // A preset first, then what the word says besides: so the order of keys does not matter.
     takeVectors(layer, vectors, word);
     return layer;
 }

@@ -62,6 +62,7 @@ int makeNormalMapFile(const NormalMapArgs& args) {
     const HeightMap heights = loadHeightMap(args.source, options, makeWarn(args.isQuiet)).decoded;
     if (heights.addressing != Addressing::texture)
         fail(Failure::usage, "{}: normals are made of one map over the unit square, not of tiles", args.source);
+    // Slopes need the size of the map in the units of its heights: by default its shape with a longer side of 1.
     const MapSize size = args.size.value_or(computeMapSize(heights.width, heights.height));
     const NormalMap normals = computeNormalMap(heights, size);
     writeImage(args.target, toCodes(normals, args.y), sample);

@@ -182,6 +182,7 @@ std::string captionOf(Detail detail, const FrameStats& stats) {
 }
 
 int compare(const RenderArgs& args) {
+    // Panels have captions and one range of colours: a picture for people, not layers.
     if (!args.target.ends_with(".png")) fail(Failure::usage, "{}: --compare writes a .png", args.target);
     if (args.scene.object.height.path.empty() && args.scene.object.height.function.empty())
         fail(Failure::usage, "--compare shows what heights do; name a --height map or a --height-function");
@@ -190,6 +191,7 @@ int compare(const RenderArgs& args) {
     std::vector<Panel> panels;
     nlohmann::json reports = nlohmann::json::array();
     for (const Detail detail : args.compared) {
+        // Everything but the technique is the same, so that differences are its own.
         RenderArgs one = args;
         one.scene.object.height.detail = detail;
         const Drawn drawn = draw(one, warn, progress);

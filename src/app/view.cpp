@@ -84,6 +84,7 @@ int view(const ViewArgs& args, const CLI::App& app) {
     }
     if (!args.record.empty()) checkOutput(args.record, inputs);
     if (!animation.picture.layers.empty()) fail(Failure::usage, "a window shows no layers; relief render writes them");
+    // The window knows no command line: what it needs of one comes as functions.
     const ViewDesc desc{.look = toLook(animation),
                         .device = animation.picture.device,
                         .makeOptions =

@@ -157,6 +157,7 @@ private:
     }
 
     void addUpFacts() {
+        // Shares of the area of the surface, by what was found at its vertices.
         double area = 0, missed = 0, behind = 0, folded = 0;
         for (const VertexFacts& facts : facts_) {
             area += facts.area;

@@ -83,10 +83,12 @@ void FaceTexels::addNode(int face, const ivec2& node, std::uint32_t texel, std::
 TexelNeighbours FaceTexels::neighboursOf(std::uint32_t texel) const {
     TexelNeighbours neighbours;
     if (texel >= firsts_.back()) return neighbours;
+    // Nodes are counted through all faces, row by row.
     const std::size_t face = faceOf(texel);
     const ivec2 count = countOf(face);
     const int across = count.x + 1, index = int(texel - firsts_[face]), i = index % across, j = index / across;
     const dvec2 uv = dvec2(i, j) / dvec2(count);
+    // Below, right, above, left: in the face, or across the side 0 to 3 whose direction is counterclockwise.
     if (j > 0)
         neighbours.add(texel - std::uint32_t(across));
     else

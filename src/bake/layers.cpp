@@ -42,6 +42,7 @@ std::pair<dvec3, dvec3> basisOf(const dvec3& n) {
 } // namespace
 
 SculptDetail computeSculptDetail(const TriangleView& triangles, Facing facing) {
+    // Vertices at one position are one point, so that split vertices leave no seam. Normals are weighed by area.
     const UniquePoints unique = findUniquePoints(triangles.positions);
     std::vector<dvec3> sums(unique.count(), dvec3(0));
     const auto pointOf = [&](std::size_t i) { return unique.indices[triangles.indices[i]]; };

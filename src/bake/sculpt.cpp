@@ -96,6 +96,7 @@ std::vector<Link> findLinks(const Sides& sides) {
 
 /// Walks over each connected part once; of its two kinds of triangles the larger one stays as it is.
 std::vector<bool> chooseTurned(std::size_t triangleCount, std::vector<Link> links, SculptFaults& faults) {
+    // Links by triangle: those of triangle i are firsts[i] to firsts[i + 1].
     std::ranges::sort(links, {}, &Link::triangle);
     std::vector<std::uint32_t> firsts(triangleCount + 1, 0);
     for (const Link& link : links) ++firsts[link.triangle + 1];
@@ -113,6 +114,7 @@ std::vector<bool> chooseTurned(std::size_t triangleCount, std::vector<Link> link
             turned += isTurned[triangle] ? 1 : 0;
             for (std::uint32_t i = firsts[triangle]; i < firsts[triangle + 1]; ++i) {
                 const std::uint32_t other = links[i].other;
+                // Triangles that run alike along their edge look to different sides: one of them has to be turned.
                 const bool turnsOther = isTurned[triangle] != links[i].runsAlike;
                 if (isSeen[other]) {
                     faults.nonOrientableCount += isTurned[other] != turnsOther && triangle < other ? 1 : 0;
@@ -122,6 +124,7 @@ std::vector<bool> chooseTurned(std::size_t triangleCount, std::vector<Link> link
                 part.push_back(other);
             }
         }
+        // The start was taken as it is, but the larger kind of the part decides.
         if (2 * turned > part.size())
             for (const std::uint32_t triangle : part) isTurned[triangle] = !isTurned[triangle];
     }

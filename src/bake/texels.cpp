@@ -163,6 +163,7 @@ void UvTexels::claimMargin(int face, Claims& claims) const {
         Node border[2], outer[2];
         for (int i = 0; i <= steps; ++i) {
             const dvec2 uv = sidePoint(sideCount, side, double(i) / steps);
+            // Beyond the border the map goes on as it does over the last half step inside, linearly.
             border[1] = {uv, toSamples(reference_.texture(face, uv).st)};
             const dvec2 inner = toSamples(reference_.texture(face, clampToFace(sideCount, uv + in)).st);
             const double share = width / std::max(1e-6, glm::length(border[1].at - inner));
@@ -195,6 +196,7 @@ void UvTexels::claimTriangle(const Node (&corners)[3], int face, int side, Claim
                 high = a + glm::max(dvec2(0), glm::max(b, c)) + kOnBorder;
     const std::int64_t height = std::int64_t(options_.height) * options_.samplesPerSide;
     const bool repeats = options_.wrap == Wrap::repeat;
+    // A repeated map is met once per turn in which the triangle comes into these rows.
     const auto firstTurn = repeats ? std::int64_t(std::floor(low.y / double(height))) : 0;
     const auto lastTurn = repeats ? std::int64_t(std::floor(high.y / double(height))) : 0;
     for (std::int64_t turn = firstTurn; turn <= lastTurn; ++turn) {
@@ -204,6 +206,7 @@ void UvTexels::claimTriangle(const Node (&corners)[3], int face, int side, Claim
         for (std::int64_t y = firstRow; y <= lastRow; ++y)
             for (auto x = std::int64_t(std::ceil(low.x)); double(x) <= high.x; ++x) {
                 const dvec2 at(x, y), from = at - a;
+                // The barycentric coordinates of the sample in texture space are those of its point of the face.
                 const double v = cross(from, c) / area, w = cross(b, from) / area;
                 if (std::min({v, w, 1 - v - w}) < -kOnBorder) continue;
                 if (!repeats && (x < 0 || x >= claims.columnCount)) continue;
@@ -212,6 +215,7 @@ void UvTexels::claimTriangle(const Node (&corners)[3], int face, int side, Claim
                     claims.claims[std::size_t((y - shift - claims.firstRow) * claims.columnCount + column)];
                 const dvec2 uv = (1 - v - w) * corners[0].uv + v * corners[1].uv + w * corners[2].uv;
                 const int sideCount = surface_.sideCount;
+                // Insides win over margins; of margins the one nearest to its face wins. Two insides overlap.
                 if (side == kInside) {
                     constexpr double kSlack = 0.02; // neighbours touch, and cells are straight where borders bend
                     if (claim.face < 0)
@@ -248,6 +252,7 @@ void UvTexels::listSamples(int first, int count, std::vector<TexelSample>& sampl
         if (options_.wrap == Wrap::repeat) turn = std::ceil((extent.lower.y - high) / height);
         if (extent.upper.y >= low + turn * height && extent.lower.y <= high + turn * height) faces.push_back(face);
     }
+    // Insides first: a margin takes only what no inside has.
     for (const int face : faces) claimFace(face, claims);
     for (const int face : faces)
         if (seamSides_[std::size_t(face)] != 0) claimMargin(face, claims);
@@ -255,6 +260,7 @@ void UvTexels::listSamples(int first, int count, std::vector<TexelSample>& sampl
         for (std::int64_t column = 0; column < claims.columnCount; ++column)
             addSample(claims, std::size_t(row * claims.columnCount + column), first, samples);
 
+    // Blocks of rows run in parallel: of overlaps the pair with the least numbers is kept, whatever the order.
     if (claims.overlap.sampleCount == 0) return;
     const std::lock_guard lock(mutex_);
     if (overlap_.sampleCount == 0 ||

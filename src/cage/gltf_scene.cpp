@@ -119,6 +119,7 @@ void SceneReader::useScene() {
     std::vector<std::uint32_t> shown;
     const std::size_t sceneCount = root_.count("scenes");
     if (sceneCount == 0) {
+        // Without scenes all nodes are shown; else the roots that the scene lists.
         for (std::uint32_t node = 0; node < scene_.nodes.size(); ++node) shown.push_back(node);
     } else {
         const std::uint32_t number = root_.integer("scene").value_or(0);

@@ -54,6 +54,7 @@ std::vector<FaceHeight> FunctionReference::heights(std::span<const SampleQuery> 
                 points.push_back(pointAt(f.p + side * f.pv, tex.st + side * tex.jacobian[1]));
             steps.push_back(d);
         }
+        // All points of the part in one evaluation: each is a submission that is waited for.
         const std::vector<double> h = evaluate(points);
         for (std::size_t i = 0; i < part.size(); ++i) {
             const double* of = &h[5 * i];

@@ -100,6 +100,7 @@ EncodedMap loadFaceMap(const std::string& path, const HeightOptions& options, co
                              .size = ivec2(1 << faces.segments[f].x, 1 << faces.segments[f].y) + 1,
                              .segments = faces.segments[f]});
     allocateTiles(map);
+    // Nodes in the picture lie without aprons, which neighbours will fill.
     const Packing packing = packFaces(faces.segments, info.width);
     for (std::size_t f = 0; f < map.tiles.size(); ++f) {
         std::vector<float> nodes;
@@ -122,10 +123,12 @@ void saveFaceMap(const std::string& path, const HeightMap& map) {
         segments.push_back(tile.segments);
         digits += fmt::format("{:x}{:x}", tile.segments.x, tile.segments.y);
     }
+    // One picture, packed so that a reader finds each face by its segments alone.
     const int width = chooseWidth(segments);
     const Packing packing = packFaces(segments, width);
     Image image{.width = width, .height = packing.height, .channels = 1, .texels = {}};
     image.texels.assign(std::size_t(image.width) * std::size_t(image.height), 0.0f);
+    // Heights in cage units: mid and scale are applied, and the file needs neither.
     for (std::size_t f = 0; f < map.tiles.size(); ++f) {
         const MapTile& tile = map.tiles[f];
         const std::size_t stride = std::size_t(tile.size.x) + 2 * kFaceApron;

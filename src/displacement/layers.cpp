@@ -95,6 +95,7 @@ std::vector<float> addOver(std::span<const MapLayer> layers, int component, cons
         CentreLookup map;
         std::optional<CentreLookup> mask;
     };
+    // Lookups are set up once per layer, which is faster than once per texel.
     std::vector<Term> terms;
     for (const MapLayer& layer : layers) {
         const HeightMap* map = componentOf(layer, component);
@@ -162,6 +163,7 @@ HeightMap addFaces(std::span<const MapLayer> layers) {
             fail(Failure::input, "{} and {}: these maps per face were made for different cages", layers.front().name,
                  name);
     });
+    // Segments of each face: the most of any map or mask. Nodes of coarser ones are among them.
     for (std::size_t f = 0; f < layers.front().map.tiles.size(); ++f) {
         ivec2 segments(0);
         eachMap(layers, [&](const std::string&, const HeightMap& map, const MapPlacement&) {

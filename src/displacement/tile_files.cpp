@@ -91,6 +91,7 @@ std::vector<TileFile> listTiles(const std::string& path) {
         fail(Failure::input,
              "{}: a file has this name, which stands for the files of a set of tiles; give the file another name",
              path);
+    // The mark stands in the name of the file, not in that of its folder, which is searched.
     const std::size_t slash = path.find_last_of('/');
     const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
     const std::string before = pattern->before.substr(slash == std::string::npos ? 0 : slash + 1);

@@ -216,6 +216,7 @@ SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface
         }
     });
     SampledDistance result{.coverage = samples.coverage, .sampleCount = distances.size()};
+    // Two halves of the samples, whose difference shows how far the sampling is to be trusted.
     double squares[2] = {}, areas[2] = {}, sum = 0;
     for (std::size_t i = 0; i < distances.size(); ++i) {
         squares[i % 2] += samples.weights[i] * distances[i] * distances[i];

@@ -83,6 +83,7 @@ SurfaceLayout makeLayout(const Surface& surface, const ReferenceSurface& referen
     SurfaceLayout layout{.hasTexCoords = surface.hasTexCoords(), .lower = dvec2(INFINITY), .upper = dvec2(-INFINITY)};
     const std::vector<std::uint32_t> islands = findIslands(surface, reference);
     layout.islandFaces.resize(islands.empty() ? 0 : 1 + std::ranges::max(islands));
+    // As many cells per face as give about kCells in all.
     const int n = int(std::clamp(std::sqrt(kCells / double(surface.faces.size())), 2.0, 16.0));
     for (int face = 0; face < int(surface.faces.size()); ++face) {
         if (reference.isHole(face)) continue;

@@ -153,6 +153,7 @@ void examineIslands(const MapCase& map, std::span<const vec2> ranges, Findings& 
     std::size_t islands = 0, faces = 0;
     bool isMoved = false;
     std::vector<bool> isSeen(ranges.size(), false);
+    // Each island once, at the first cell of it.
     for (const LayoutCell& cell : layout.cells) {
         if (isSeen[cell.island] || !isEmptyIsland(ranges[cell.island], map.map)) continue;
         isSeen[cell.island] = true;
@@ -209,6 +210,7 @@ void examineStretch(const MapCase& map, Findings& findings) {
     double area = 0, stretched = 0;
     dvec2 worst(0);
     const LayoutCell* at = nullptr;
+    // The share of the area whose texels are too long, and the longest of them.
     for (const LayoutCell& cell : layout.cells) {
         const dvec2 extents = texelExtents(cell, map.map);
         area += cell.area;

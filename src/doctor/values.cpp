@@ -66,6 +66,7 @@ void addSteps(const MapCase& map, Findings& findings, double bits, double step, 
 
 void examineSteps(const MapCase& map, Findings& findings) {
     const double scale = std::abs(map.map.scale);
+    // Files whose format says that they have 8 bits.
     if (map.info.format == "jpeg")
         return addSteps(map, findings, 8, scale / 255, "a JPEG, whose 8 bits are also rounded by blocks");
     if (map.info.sampleBytes == 1) return addSteps(map, findings, 8, scale / 255, "8 bits per height");
@@ -132,6 +133,7 @@ void examineColors(const MapCase& map, Findings& findings) {
                                                 "they are, other programs may convert them",
                                                 map.info.colorTag),
                             .advice = "set the map to raw, non-color data in other programs"});
+    // Values that all lie on the curve were 8-bit codes.
     const std::vector<float> distinct = listDistinct(map, 256);
     const bool isDecoded = distinct.size() >= kFewestCodes && distinct.size() <= 256 && map.info.sampleBytes > 1 &&
                            areCodes(distinct, map.info, decodeSrgb);
@@ -144,6 +146,7 @@ void examineColors(const MapCase& map, Findings& findings) {
                             .figure = double(distinct.size())});
         return;
     }
+    // A midlevel that much of the map has, and that lies on the curve, says the same.
     const Peak peak = findPeak(map.used, peakWidth(map));
     const char* curve = describeCurve(peak.value);
     if (peak.share < kPeakShare || curve == nullptr || std::abs(peak.value - map.map.mid) < 0.002) return;

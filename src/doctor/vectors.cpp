@@ -49,6 +49,7 @@ void examineVectors(const MapCase& map, std::span<const std::uint32_t> coverage,
                             .text = "8 bits per component",
                             .advice = "export the map again from its source with 16 bits or as float",
                             .figure = 8});
+    // Each component as a map of heights: its midlevel, and how far it moves points on average.
     std::array<Component, 3> components;
     for (std::size_t k = 0; k < 3; ++k) {
         components[k] = takeComponent(map, vectors.channels[k], coverage);

@@ -257,6 +257,7 @@ std::vector<std::uint32_t> compile(const FunctionText& function, const IsolatedT
     program.addShader(&shader);
     if (!program.link(messages)) failToCompile(function, request, program.getInfoLog());
 
+    // SPIR-V as it is: shaders are optimised once their constants are known (gpu/specialize.h).
     std::vector<std::uint32_t> words;
     glslang::SpvOptions options;
     options.disableOptimizer = true;

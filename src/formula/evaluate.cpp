@@ -58,6 +58,7 @@ FunctionEvaluator::Part FunctionEvaluator::evaluatePart(std::span<const Function
     });
     std::memcpy(words.data(), download.bytes().data(), words.size() * sizeof(std::uint32_t));
 
+    // Each value, whether its loops ran out, and the bound that the function states itself.
     Part part;
     part.values.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -51,6 +51,7 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
 void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats) {
     const bool hasLayers = !frame.options.layers.empty();
     const DrawPass mostWanted = hasLayers ? DrawPass::layers : DrawPass::surface;
+    // Vertices hold what the pass that wants most reads: of layers that is more than of colors.
     const ShaderConstants constants = constantsOf(frame, drawn, mostWanted);
     drawn.diced = dicer.dice(*drawn.surface, drawn.rates,
                              {.normal = frame.options.normal,
@@ -63,6 +64,7 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
     drawn.bindings[kBindMeshIndices] = mesh.indices.binding();
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
+    // Which face a triangle belongs to, for the pictures that show faces or their rates.
     if (frame.technique.wantsFaces) {
         std::vector<std::uint32_t> words;
         for (std::size_t face = 0; face < mesh.faceRates.size(); ++face)

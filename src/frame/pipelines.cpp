@@ -16,6 +16,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     const NormalKind normal = row.hasNormals ? frame.options.normal : NormalKind::limit;
     ShaderConstants c =
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
+    // What is not asked for is not compiled: passes without normals have neither pictures nor slopes.
     c.pass = row.constant;
     c.hasMips = drawn.rates.hasMips();
     c.readsNodes = drawn.surface != nullptr && readsNodes(*drawn.surface, drawn.rates);

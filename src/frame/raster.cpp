@@ -97,6 +97,7 @@ bool Renderer::Parts::needsIds(const Frame& frame) const {
 /// The buffers that hold samples, made when first needed.
 void Renderer::Parts::useBuffers(Frame& frame) {
     if (!buffers) buffers = makeSampleBuffers(device, desc);
+    // Colors and instances of samples take memory only once a picture needs them.
     frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
     if (frame.writesIds && buffers->colors.buffer.bytes == 0)
         buffers->colors = makeSampleTable(device, desc, "colors of samples", 32);

@@ -88,6 +88,7 @@ EnvironmentPicture readFaces(const std::string& path) {
             names = &set;
             break;
         }
+    // All six of that set, as squares of one size.
     EnvironmentPicture cube{.shape = EnvironmentShape::cube, .images = {}};
     for (const char* face : *names) {
         const std::string file = nameFace(path, face);
@@ -150,12 +151,14 @@ EnvironmentFile readPicture(const std::string& path, std::optional<EnvironmentSh
     const std::optional<CubeLayout> layout = layoutOf(image);
     const bool isWide = image.width == 2 * image.height && image.width >= 8;
     const bool isSquare = image.width == image.height;
+    // What was asked for; else what its sides say: 2 x 1, those of crosses and strips, or 1 x 1.
     EnvironmentFile file{.isChosen = !asked};
     file.picture.shape = asked.value_or(isWide     ? EnvironmentShape::equirect
                                         : layout   ? EnvironmentShape::cube
                                         : isSquare ? EnvironmentShape::sphere
                                                    : EnvironmentShape::equirect);
     const std::string size = fmt::format("this one is {} x {}", image.width, image.height);
+    // A shape that was guessed has to look like it, too.
     switch (file.picture.shape) {
     case EnvironmentShape::cube:
         if (!layout) fail(Failure::input, "{}: the faces of a cube are 4 x 3, 3 x 4 or 6 x 1 squares; {}", path, size);

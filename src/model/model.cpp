@@ -116,6 +116,7 @@ void uploadTables(Device& device, const Surface& surface, SurfaceModel& model) {
     model.tables.edgeCount = std::uint32_t(surface.edges.size());
     model.hasWideIndices = records.hasWideIndices;
     model.hasStraightCorners = records.hasStraightCorners;
+    model.patchTypes = records.patchTypes;
     model.recordTable = uploadTexels(device, {.name = "records"}, VK_FORMAT_R32G32B32A32_UINT, bytesOf(records.words));
     model.treeTable = uploadWords(device, "tree", surface.tree);
     model.texPointTable =

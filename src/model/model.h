@@ -151,6 +151,7 @@ struct SurfaceModel {
     bool hasTexCoords = false;
     bool hasWideIndices = false; ///< control points have 32-bit indices (shared/records.h)
     bool hasStraightCorners = false;
+    std::uint32_t patchTypes = 0; ///< bit t: there are patches of type t (shared/surface.h)
 
     /// Lives as long as the model: what others derive from the model and keep is dropped after that.
     std::shared_ptr<const int> identity = std::make_shared<const int>(0);

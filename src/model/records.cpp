@@ -148,6 +148,7 @@ SurfaceRecords recordsOf(const Surface& surface) {
     const auto mostIncidences = [](std::uint32_t most, const Edge& edge) {
         return std::max(most, edge.incidenceCount);
     };
+    // Numbers share words with flags: more would run into them.
     if (surface.faces.size() >= kMostFaces || surface.corners.size() >= kMostCorners ||
         std::accumulate(surface.edges.begin(), surface.edges.end(), 0u, mostIncidences) >= kMostEdgeIncidences)
         fail(Failure::input,
@@ -159,6 +160,7 @@ SurfaceRecords recordsOf(const Surface& surface) {
     std::vector<std::uint32_t>& words = records.words;
     const auto texel = [&] { return std::uint32_t(words.size() / 4); };
     records.firstFace = appendRecords<kFaceTexels>(words, surface.faces);
+    // Patches name the weights of their caps, which therefore come before them.
     const std::uint32_t firstCapTexel = texel();
     for (const float weight : surface.capWeights) words.push_back(std::bit_cast<std::uint32_t>(weight));
     const PatchWriter patches(surface, firstCapTexel);
@@ -167,6 +169,10 @@ SurfaceRecords recordsOf(const Surface& surface) {
     patches.append(words);
     records.hasStraightCorners =
         std::ranges::any_of(surface.patches, [](const Patch& p) { return p.straightCorners != 0; });
+    for (const Patch& patch : surface.patches) {
+        records.patchTypes |= 1u << patch.type;
+        if (surface.hasTexCoords()) records.patchTypes |= 1u << patch.texType;
+    }
     records.firstEdge = texel();
     appendEdges(words, surface);
     records.firstCorner = texel();

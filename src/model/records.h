@@ -24,6 +24,7 @@ struct SurfaceRecords {
     std::vector<std::uint32_t> words;
     std::uint32_t firstFace = 0, firstPatch = 0, firstEdge = 0, firstCorner = 0, firstIncidence = 0;
     bool hasWideIndices = false, hasStraightCorners = false;
+    std::uint32_t patchTypes = 0; ///< kIdPatchTypes
 };
 SurfaceRecords recordsOf(const Surface& surface);
 

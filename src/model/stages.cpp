@@ -95,6 +95,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdMapFormat] = std::uint32_t(mapFormat);
     values[kIdHasWideIndices] = hasWideIndices;
     values[kIdHasStraightCorners] = hasStraightCorners;
+    values[kIdPatchTypes] = patchTypes;
     values[kIdPass] = pass;
     values[kIdIsMesh] = isMesh;
     values[kIdIsPlaced] = isPlaced;
@@ -128,6 +129,7 @@ ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
             .addressing = model.addressing(),
             .hasWideIndices = model.hasWideIndices,
             .hasStraightCorners = model.hasStraightCorners,
+            .patchTypes = model.patchTypes,
             .heightFunction = model.function ? model.function->number() : 0,
             .vectorSpace = model.height ? model.height->vectorSpace : kVectorNone,
             .readsRest = model.points.rest.has_value()};

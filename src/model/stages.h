@@ -26,6 +26,7 @@ struct ShaderConstants {
     Addressing addressing = Addressing::texture;
     bool readsNodes = false, hasPictureTiles = false;
     bool hasWideIndices = false, hasStraightCorners = false;
+    std::uint32_t patchTypes = 0; ///< kIdPatchTypes
     std::uint32_t pass = kPassSurface;
     bool isMesh = false, isPlaced = false, hasInstances = false;
     std::uint32_t entryCount = 0; ///< kIdEntries

@@ -170,6 +170,7 @@ void warnOfMissingTiles(const Cage& cage, const HeightMap& set, const std::strin
         first += size;
     }
     if (missing.empty()) return;
+    // One warning names the first few; sets may have a hundred tiles.
     constexpr std::size_t kMostNames = 8;
     std::string names;
     for (std::size_t i = 0; i < std::min(missing.size(), kMostNames); ++i) names += (i > 0 ? ", " : "") + missing[i];
@@ -212,6 +213,7 @@ void fitHeights(LoadedObject& object, const ObjectDesc& desc, const Warn& warn) 
 EncodedMap loadHeights(const ObjectDesc& desc, const Cage& cage, const Warn& warn) {
     EncodedMap map = readAllHeights(desc, cage, warn);
     const std::string& path = desc.height.path;
+    // What each addressing needs of the cage, and what it cannot be combined with.
     if (map.decoded.addressing == Addressing::faces) {
         if (desc.height.detail == Detail::bump || desc.height.detail == Detail::both)
             fail(Failure::usage,

@@ -29,9 +29,11 @@ std::optional<Sector> LevelWalker::sectorAt(FaceCorner start) const {
         }
         first = *other;
     }
+    // Counterclockwise from there: the faces and edges of the sector. One sharp edge in a closed fan is a dart.
     if (!addFaces(sector, first, start, isClosed)) return {};
     pattern.isClosed = isClosed;
     if (!isClosed && isOneSharpEdge(sector)) pattern.isClosed = pattern.hasDart = true;
+    // Faces close around a smooth vertex, and end at both sides of a crease; corners have either.
     const bool fits = pattern.rule == VertexRule::crease   ? !pattern.isClosed
                       : pattern.rule == VertexRule::smooth ? pattern.isClosed
                                                            : true;

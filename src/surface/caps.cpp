@@ -369,6 +369,7 @@ CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(p
     const CapRefinement refinement(pattern);
     const MatrixXd a = refinementAround(pattern);
     limit_ = stationaryRow(a);
+    // Without the eigenvalue 1 of what all points share, powers of the matrix shrink: they are scaled by 2 per level.
     const MatrixXd deflated = a - Eigen::VectorXd::Ones(a.rows()) * limit_;
 
     // Each level from the one before, twice as large.
@@ -383,6 +384,7 @@ CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(p
             levels_[level - 1][piece] = weights;
         }
     }
+    // Directions at the vertex itself, by its rules. The deepest level stands for the limit at corners.
     const MatrixXd deepest = diagonalTangents(pattern.sideCount, levels_[kCapLevels - 1][1]);
     if (pattern.window > 0)
         tangents_ = MatrixXd::Identity(a.rows(), a.rows()).bottomRows(2);

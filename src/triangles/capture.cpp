@@ -135,6 +135,7 @@ CapturedMesh Capture::patches() {
         for (const DrawBatch& batch : plan.batches) vkCmdDraw(commands, batch.faceCount, 1, batch.firstFace, 0);
         end(commands, 0, 0, nullptr, nullptr);
     });
+    // Vertices are written once per triangle: their numbers are the indices.
     CapturedMesh mesh = readBack(target, vertexCount);
     for (std::uint32_t i = 0; i < vertexCount; ++i) mesh.indices.push_back(i);
     return mesh;

@@ -77,6 +77,7 @@ private:
         // A face of one segment per side has no lattice: all its triangles are at edges.
         const std::uint64_t cells = std::max(f.u, f.v) == 1 ? 0 : formulas::cellTriangles(sides, lattice);
         const std::uint64_t atEdges = triangles - cells;
+        // Triangles at edges and those of the lattice go to two passes, in tiles of one work group each.
         const auto addTiles = [&](std::vector<TriangleTile>& tiles, std::uint64_t first, std::uint64_t end) {
             for (; first < end; first += kTrianglesPerTile)
                 tiles.push_back({face, std::uint32_t(first), std::uint32_t(work_.triangleCount + first), firstVertex});
@@ -84,6 +85,7 @@ private:
         addTiles(work_.rings, 0, atEdges);
         addTiles(work_.cells, atEdges, triangles);
         work_.triangleCount += triangles;
+        // Samples inside the face; those on edges and in corners are added per edge and corner.
         if (std::max(f.u, f.v) == 1) return;
         if (model_.isTriangles())
             addTriangleInside(face, formulas::atLeastInner(3, f.u));

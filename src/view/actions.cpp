@@ -69,6 +69,7 @@ bool Viewer::takePlayed(double now) {
     const Event event = played_.front();
     const bool isResting =
         pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() && !otherLoader_.isBusy();
+    // Events that wait stay in front of the queue until what they wait for has happened.
     switch (event.kind) {
     case EventKind::rest:
         if (isResting) played_.pop_front();
@@ -86,6 +87,7 @@ bool Viewer::takePlayed(double now) {
         return false;
     default: break;
     }
+    // All others act at once, one per frame, as a person's would.
     if (framesToPlay_ > 0) return false;
     played_.pop_front();
     record(event);
@@ -104,6 +106,7 @@ void Viewer::record(const Event& event) {
 }
 
 void Viewer::apply(const Event& event) {
+    // Panels come first: what they take does not turn the camera below them.
     const bool isTaken = ui_->take(event);
     switch (event.kind) {
     case EventKind::move: move(event.at); break;
@@ -121,6 +124,7 @@ void Viewer::apply(const Event& event) {
     case EventKind::size: {
         const ivec2 size(event.at);
         if (window_.size() == size) break;
+        // The window system resizes when it likes: later events count on the size.
         window_.resize(size);
         for (int i = 0; i < 200 && window_.size() != size; ++i) window_.waitForEvents(0.01);
         break;
@@ -211,6 +215,7 @@ void Viewer::pressViewKey(int key) {
     const CameraOptions& camera = state_.look.scene.camera;
     Show& show = state_.look.show;
     const auto isAt = [&](double azimuth) { return std::abs(std::remainder(camera.azimuth - azimuth, 360)) < 1e-9; };
+    // The keys of Blender's numeric pad: a second press looks from the other side.
     switch (key) {
     case GLFW_KEY_F: return frameObject();
     case GLFW_KEY_1: return look(isAt(0) && camera.elevation == 0 ? 180 : 0, 0);

@@ -240,6 +240,7 @@ double Times::quantile(double share) const {
 PanelWishes makePanels(ViewState& state, const ViewFacts& facts, const ivec2& size) {
     PanelWishes wishes;
     if (state.showsPanels) {
+        // One panel at the left edge, as high as its contents and no higher than the window.
         ImGui::SetNextWindowPos({kMargin, kMargin});
         ImGui::SetNextWindowSizeConstraints({kPanelWidth, 0},
                                             {kPanelWidth, std::max(80.0f, float(size.y) - 2 * kMargin)});
@@ -251,6 +252,7 @@ PanelWishes makePanels(ViewState& state, const ViewFacts& facts, const ivec2& si
         ImGui::SameLine();
         ImGui::TextDisabled("%s   ? for keys", facts.isCoarse ? "coarse" : "full");
         explain(facts.device.c_str());
+        // In the order of the data flow: what is seen, heights, triangles, light, time, and what it cost.
         makeView(state, wishes);
         makeHeights(state, wishes);
         makeTriangles(state, wishes);

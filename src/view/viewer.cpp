@@ -138,6 +138,7 @@ void Viewer::takeLoaded() {
         if (result.error.empty()) changePicture();
         return result.error.empty();
     };
+    // The scene that is shown, and the one of the right side, which is not needed where it cannot be had.
     if (auto result = loader_.take()) {
         const auto take = [&](Prepared prepared) { useScene(std::move(prepared)); };
         if (use(*result, take)) ++report_.reloadCount;
@@ -207,9 +208,11 @@ void Viewer::drawPicture(Quality quality) {
     isCoarse_ = quality == Quality::coarse;
     const ivec2 whole = state_.look.scene.size;
     const ivec2 size = isCoarse_ ? glm::max(whole / pacing_.divisor(), ivec2(1)) : whole;
+    // Coarse pictures have a smaller size and a smaller shadow map: both cost by the pixel.
     renderer_->resize({.width = size.x,
                        .height = size.y,
                        .shadowSide = isCoarse_ ? RendererDesc().shadowSide / 2 : RendererDesc().shadowSide});
+    // A frozen camera still decides about rates, while the picture is seen from elsewhere.
     if (state_.isFrozen && !frozenCamera_) frozenCamera_ = scene_->makeCamera(state_.look, whole);
     if (!state_.isFrozen) frozenCamera_.reset();
     Picture picture = scene_->draw(*renderer_, state_.look, size, frozenCamera_);
@@ -221,6 +224,7 @@ void Viewer::drawPicture(Quality quality) {
     else
         picture_ = std::move(picture);
 
+    // What it took decides how coarse the next picture is, and is what the panel shows.
     const double seconds = secondsNow() - start;
     pacing_.drew(quality, seconds);
     pictureTimes_.add(1e3 * seconds);
@@ -241,6 +245,7 @@ void Viewer::develop(const Picture& picture, bool isExact) {
 /// Draws the right side of a split view. Its heights may differ: then it is a scene of its own, read when first needed.
 void Viewer::addOtherSide(Codes& codes, const ivec2& size, bool isExact) {
     Look other = shownLook();
+    // The look of the right side: that of the left one with one thing changed.
     switch (state_.split) {
     case SplitKind::smooth: other.scene.object.height.detail = Detail::none; break;
     case SplitKind::bump: other.scene.object.height.detail = Detail::bump; break;
@@ -252,11 +257,14 @@ void Viewer::addOtherSide(Codes& codes, const ivec2& size, bool isExact) {
     case SplitKind::limitNormals: other.triangles.normal = NormalKind::limit; break;
     case SplitKind::off: return;
     }
+    // Another technique needs another scene, which is read in the background: until then the left side fills the
+    // window.
     const bool isSame = other.scene.object.height.detail == scene_->look().scene.object.height.detail;
     if (!isSame && (!other_ || other_->look().scene.object.height.detail != other.scene.object.height.detail)) {
         if (!otherLoader_.isBusy()) otherLoader_.ask(other);
         return;
     }
+    // Developed as the left side was, and joined at the divider.
     ShownScene& scene = isSame ? *scene_ : *other_;
     const Picture picture = scene.draw(*renderer_, other, size, frozenCamera_);
     const Finish& finish = state_.look.finish;
@@ -307,6 +315,7 @@ void Viewer::present(double now) {
     if (uiFrames_ > 0) --uiFrames_;
     if (framesToPlay_ > 0) --framesToPlay_;
 
+    // A window that was resized meanwhile shows nothing; the next frame has its size.
     const bool isShown = swapchain_->show(canvas_, canvasPart_, [&](VkCommandBuffer c) { ui_->draw(c); });
     ++report_.frameCount;
     if (!isShown) fitToWindow();
