@@ -107,6 +107,6 @@ rm -f "$out/sculpt.obj" "$out/baked.exr"
     --frames 0:47 --azimuth -10 --elevation 14 --fov 24 --edge-pixels 2 --spacing fractional --size 560,350 \
     -o "$out/octopus.webp"
 # Waves that mirror the sky: heights by a formula that moves with the time.
-"$relief" animate "$meshes/plane.obj" --height-function waves --scale 0.5 --path dice --edge-pixels 3 --metallic 0 --roughness 0.06 \
-    --color 0.03,0.10,0.12 --light 200,18 --azimuth 20 --elevation 13 --look-at 0,0,0.1 --distance 1.9 --frames 0:47 \
+"$relief" animate "$meshes/plane.obj" --height-function waves --scale 0.3 --path dice --edge-pixels 3 --metallic 0 --roughness 0.06 \
+    --color 0.03,0.10,0.12 --light 200,18 --azimuth 20 --elevation 10 --look-at 0,0,0.3 --distance 1.6 --frames 0:47 \
     --size 480,300 -q -o "$out/waves.webp"
