@@ -187,6 +187,7 @@ void takeSplitColors(LoadedObject& object, const std::vector<GltfMaterial>& mate
     JoinedPictures joined = joinSquares(squares, {}, name, warn);
     object.albedo = std::move(joined.image);
     object.albedoTiles = joined.tiles;
+    object.wrap = Wrap::clamp; // the last square does not continue in the first
     object.textureColor = vec3(1);
 }
 
