@@ -30,6 +30,9 @@ void measureLight(SuiteContext& context, const TestScene& scene) {
           std::pair(Method::matcap, Shading::matcap)})
         add(method).options.shading = shading;
 
+    const GpuMatcap ball = uploadMatcap(context.device, renderMatcap(context.device, {}, {}, dvec2(0), 256));
+    drawings.back().options.matcap = &ball; // without one, each frame would draw its own
+
     timeDrawings(renderer, on.views, context.roundCount(), drawings);
     for (const TimedDrawing& drawing : drawings) {
         Row row{.suite = Suite::light, .scene = scene.name, .method = drawing.method};
