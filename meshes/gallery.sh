@@ -48,6 +48,17 @@ picture lights octopus --height "$maps/octopus.exr" --color 0.6,0.6,0.6 --azimut
 "$relief" matcap --color 0.75,0.2,0.1 --roughness 0.25 --metallic 0 -q -o "$out/matcap_ball.png"
 picture matcap octopus --height "$maps/octopus.exr" --shading matcap --matcap "$out/matcap_ball.png" --azimuth -10 \
     --elevation 12 --fov 24 --edge-pixels 1.5 --size 960,600
+# A globe: its relief moves the surface, and what is finer bends normals.
+"$relief" normal-map "$maps/globe_detail.exr" --scale 2 --size 6.28,4.19 -q -o "$out/globe_normals.png"
+picture globe ball --height "$maps/globe.exr" --scale 0.7 --albedo "$maps/globe_albedo.png" --normal-map "$out/globe_normals.png" \
+    --azimuth -25 --elevation 12 --light -60,30 --roughness 0.55 --background 0.01,0.01,0.02 --edge-pixels 1.5 --size 800,800
+# A fractal terrain on a grid of 100 x 100, which cuts its ridges, and on triangles of two pixels.
+for how in grid adaptive; do
+    set -- --edge-pixels 2
+    [ $how = adaptive ] || set -- --rate 12 # of 8 x 8 faces
+    picture terrain_$how plane --height "$maps/terrain.exr" --albedo "$maps/terrain_albedo.png" --wrap clamp --path grid \
+        --azimuth 20 --elevation 14 --look-at 0,0.05,0.5 --distance 1.6 --roughness 0.9 --size 640,400 "$@"
+done
 rm -f "$out/stats.json"
 
 # What heights can do besides: techniques side by side.
@@ -103,3 +114,7 @@ rm -f "$out/spread.exr"
         squash(axis=y, amount=0.08*sin(2*pi*t))" \
     --frames 0:47 --azimuth -10 --elevation 14 --fov 24 --edge-pixels 2 --spacing fractional --size 560,350 \
     -o "$out/octopus.webp"
+# Waves that mirror the sky: heights by a formula that moves with the time.
+"$relief" animate "$meshes/plane.obj" --height-function waves --scale 0.3 --path dice --edge-pixels 3 --metallic 0 --roughness 0.06 \
+    --color 0.03,0.10,0.12 --light 200,18 --azimuth 20 --elevation 10 --look-at 0,0,0.3 --distance 1.6 --frames 0:47 \
+    --size 480,300 -q -o "$out/waves.webp"

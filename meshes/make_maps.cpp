@@ -23,6 +23,7 @@ struct Map {
 constexpr Map kMaps[] = {
     {"bricks", {1024, 1024}, paintBricks},   {"golf", {2048, 1024}, paintGolf},
     {"lantern", {1024, 1024}, paintLantern}, {"moon", {2304, 1536}, paintMoon},
+    {"globe", {1536, 1024}, paintGlobe},     {"globe_detail", {2304, 1536}, paintGlobeDetail},
     {"octopus", {2048, 2048}, paintOctopus}, {"orange", {1536, 1024}, paintOrange},
     {"smooth", {512, 512}, paintSmooth},     {"strawberry", {2048, 2048}, paintStrawberry},
     {"terrain", {2048, 2048}, paintTerrain},

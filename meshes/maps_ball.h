@@ -1,4 +1,4 @@
-// Maps for the ball, painted by direction from its middle: orange and moon.
+// Maps for the ball, painted by direction from its middle: orange, moon and globe.
 #pragma once
 
 #include "painting.h"
@@ -118,6 +118,37 @@ inline Painting paintMoon(const ivec2& size) {
         double shade = 0.60 + 0.10 * fractal(d * 5.0, 4, 53) + 0.9 * height - 0.17 * mare;
         shade = glm::mix(shade, 0.92, 0.55 * craters.rays(d));
         return Paint{height, dvec3(1.0, 0.975, 0.94) * shade};
+    });
+}
+
+/// A globe with land above sea: -1 at the bottom of the sea, 0 on its shores.
+inline double globeElevation(const dvec3& d, int octaves) {
+    const double continents = fractal(warped(d, 1.3, 0.35, 61) * 1.05, octaves, 63) - 0.06;
+    const double ridge = 1 - std::abs(fractal(warped(d, 2.5, 0.2, 65) * 2.6, std::max(1, octaves - 1), 67)) * 3.2;
+    return continents + 0.22 * std::max(0.0, ridge) * smoothstep(0.05, 0.3, continents);
+}
+
+/// The globe's heights as far as triangles carry them, and its colors by height and latitude.
+inline Painting paintGlobe(const ivec2& size) {
+    return paintBall(size, [](const dvec3& d) {
+        const double fine = globeElevation(d, 8), land = smoothstep(-0.004, 0.006, fine);
+        dvec3 sea = glm::mix(dvec3(0.10, 0.34, 0.46), dvec3(0.03, 0.10, 0.24), smoothstep(0.0, -0.18, fine));
+        const double dry = smoothstep(-0.15, 0.25, fractal(d * 2.3, 4, 69) + 0.35 - 1.1 * std::abs(d.y - 0.1));
+        dvec3 ground = glm::mix(dvec3(0.16, 0.30, 0.10), dvec3(0.62, 0.50, 0.28), dry);
+        ground = glm::mix(ground, dvec3(0.40, 0.33, 0.26), smoothstep(0.16, 0.34, fine));
+        const double cold = std::abs(d.y) + 0.55 * std::max(0.0, fine) + 0.05 * fractal(d * 9.0, 3, 71);
+        ground = glm::mix(ground, dvec3(0.93, 0.94, 0.96), smoothstep(0.80, 0.88, cold));
+        sea = glm::mix(sea, dvec3(0.86, 0.90, 0.94), smoothstep(0.92, 0.96, cold)); // ice
+        return Paint{0.16 * std::max(0.0, globeElevation(d, 5)), glm::mix(sea, ground, land)};
+    });
+}
+
+/// What the globe's normal map shows: all octaves of the land, and swell on the sea.
+inline Painting paintGlobeDetail(const ivec2& size) {
+    return paintBall(size, [](const dvec3& d) {
+        const double fine = globeElevation(d, 9), coarse = globeElevation(d, 5);
+        const double swell = 0.0006 * fractal(d * 60.0, 2, 73) * smoothstep(0.0, -0.02, fine);
+        return Paint{0.16 * (std::max(0.0, fine) - std::max(0.0, coarse)) + swell, dvec3(1)};
     });
 }
 

@@ -18,13 +18,11 @@ layout(set = 0, binding = kBindNormalMap) uniform sampler2D normalMap;
 // half a pixel apart.
 const float kSampleLevel = -1.0;
 
-// What the vertices' normals lack of the slopes (h_s, h_t) of the map, at the mip that fits the samples: all of them on a surface
-// that is not displaced; on a displaced one what its triangles are too large for. Central differences over one texel commute
-// with interpolation between texels, so they are taken once per texel, and the sampler does the rest.
-vec2 missingSlopes() {
+// The slopes (h_s, h_t) of the map, at the mip that fits the samples: vertices have none of them. Central differences over one
+// texel commute with interpolation between texels, so they are taken once per texel, and the sampler does the rest.
+vec2 mapSlopes() {
     vec2 slopes = inputs.model.slopeUnit * lookUp(slopeMap, inputs.model.slopeTiles, kSampleLevel).rg;
-    if (kHasPictureTiles) slopes *= inputs.model.slopeTiles.zw; // by s and t of the picture before
-    return kHasHeight ? slopes - vec2(vGradientS.w, vGradientT.w) : slopes;
+    return kHasPictureTiles ? slopes * inputs.model.slopeTiles.zw : slopes; // by s and t of the picture before
 }
 
 // The normal map at the fragment: a mean of unit normals, shorter than 1 where they differ.
@@ -78,11 +76,11 @@ vec3 fragmentNormal() {
     vec2 slopes = vec2(0);
     vec3 bent = unitOrElse(n - rise, n);
 #else
-    vec2 slopes = kHasSlopes ? missingSlopes() : vec2(0);
+    vec2 slopes = kHasSlopes ? mapSlopes() : vec2(0);
     vec3 bent = kHasSlopes ? unitOrElse(bumpedNormal(n, gradientS, gradientT, slopes), n) : n;
 #endif
     if (kNormalMap == kNormalMapNone) return bent;
-    // p_s = (grad t x n) / (n . (grad s x grad t)); by the missing slope it rises along the normal of the limit surface, which both
+    // p_s = (grad t x n) / (n . (grad s x grad t)); by the slope it rises along the normal of the limit surface, which both
     // gradients are perpendicular to.
     vec3 across = cross(gradientS, gradientT);
     float density = length(across);

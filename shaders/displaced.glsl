@@ -6,8 +6,8 @@
 #include "vectors.glsl"
 
 layout(constant_id = kIdNormal) const uint kNormal = kNormalFull;
+layout(constant_id = kIdHasSlopes) const bool kHasSlopes = false; // fragments bend normals by all slopes: vertices do not
 #ifdef RELIEF_HEIGHT_FUNCTION
-layout(constant_id = kIdHasSlopes) const bool kHasSlopes = false; // fragments bend normals by the function: vertices do not
 #include "function_samples.glsl"
 #endif
 
@@ -111,9 +111,8 @@ void addTexGradients(inout DisplacedSample s, SurfacePoint point, Displacement d
     vec3 n = kVectorSpace != kVectorNone ? m / area : point.n; // nothing bends the normals of vector maps
     vec3 gradientU = cross(xv, n) / area, gradientV = cross(n, xu) / area;
     mat2 J = point.tex.jacobian;
-    vec2 slopes = hasSlopes ? d.height.gradient / point.stretch : vec2(0);
-    s.gradientS = vec4(point.stretch * (J[0].x * gradientU + J[1].x * gradientV), slopes.x);
-    s.gradientT = vec4(point.stretch * (J[0].y * gradientU + J[1].y * gradientV), slopes.y);
+    s.gradientS = vec4(point.stretch * (J[0].x * gradientU + J[1].x * gradientV), 0.0);
+    s.gradientT = vec4(point.stretch * (J[0].y * gradientU + J[1].y * gradientV), 0.0);
 #ifdef RELIEF_HEIGHT_FUNCTION
     s.restGradient = point.stretch * (outerProduct(point.rest.pu, gradientU) + outerProduct(point.rest.pv, gradientV));
 #endif
@@ -139,6 +138,7 @@ Displacement displacementAt(SurfacePoint point, float level) {
     d.height = sampleFunction(point.rest, point.tex);
 #else
     d = lookUp(MapPlace(point.face, point.uv, point.tex.st), level);
+    if (kHasSlopes) d.height.gradient = vec2(0);
 #endif
     if (kStretches) {
         precise float h = point.stretch * d.height.h;

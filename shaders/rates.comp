@@ -7,10 +7,21 @@ layout(local_size_x = 64) in;
 
 RELIEF_TABLE(kBindEdgeHeights, float, edgeHeightRange)
 
+const float kOutlineSegment = 0.25; // the length of segments at outlines, in those of others
+const float kOutlineCosine = 0.3;   // of the angle at which segments begin to be shorter
+
+// Where fragments show all slopes, large triangles are seen at outlines only: of the surface, and of its relief, which hides more of
+// itself the more aslant it is seen. Segments there are up to four times as short. `facing`: the least cosine between the line of sight
+// and the limit normal, along an edge.
+float outlineRefinement(float facing) {
+    return kHasSlopes && kHasHeight ? 1.0 / mix(kOutlineSegment, 1.0, clamp(facing / kOutlineCosine, 0.0, 1.0)) : 1.0;
+}
+
 // Length in pixels of the displaced edge seen face-on from its distance: direction does not shorten it, so silhouettes
 // keep their detail. Heights between the samples are not seen: the edge counts as at least as long as if they went once
 // through their whole range.
 float pixelLength(uint edge) {
+    float facing = 1.0, lastFacing = 1.0;
     const uint pieces = 4u;
     float pixels = 0.0, straight = 0.0, middle = 0.0;
     vec3 last = vec3(0), lastLimit = vec3(0);
@@ -19,6 +30,9 @@ float pixelLength(uint edge) {
         DisplacedSample s = displaced(location.owner.face, vec2(0), location);
         vec3 q = s.q;
         float distance = max(length(0.5 * (q + last) - inputs.view.eye), inputs.rates.nearDistance);
+        float toEye = dot(s.n, normalize(inputs.view.eye - s.p));
+        facing = k > 0u && toEye * lastFacing < 0.0 ? 0.0 : min(facing, abs(toEye));
+        lastFacing = toEye;
         if (k > 0u) pixels += length(q - last) * inputs.rates.pixelsAtUnitDistance / distance;
         if (k > 0u) straight += length(s.p - lastLimit);
         if (2u * k == pieces) middle = max(length(q - inputs.view.eye), inputs.rates.nearDistance);
@@ -26,7 +40,8 @@ float pixelLength(uint edge) {
         lastLimit = s.p;
     }
     float range = edgeHeightRange(edge);
-    return max(pixels, length(vec2(straight, range)) * inputs.rates.pixelsAtUnitDistance / middle);
+    pixels = max(pixels, length(vec2(straight, range)) * inputs.rates.pixelsAtUnitDistance / middle);
+    return pixels * outlineRefinement(facing);
 }
 
 void main() {

@@ -10,9 +10,8 @@ RELIEF_LOCATION(2) RELIEF_VARYING float vHeight;
 RELIEF_LOCATION(3) RELIEF_FLAT RELIEF_VARYING uint vFace; // of the cage; for layers that of the surface
 RELIEF_LOCATION(4) RELIEF_FLAT RELIEF_VARYING uint vRate; // largest of the face's sides
 
-// kHasTexGradients: the gradients of s and t along the drawn surface, in the world's directions, cage units; and how much of h_s
-// and h_t the normal has already. Where heights stretch with the surface, gradients are multiplied with the stretch and slopes
-// are those of the map.
+// kHasTexGradients: the gradients of s and t along the drawn surface, in the world's directions, cage units; the fourth number is
+// not used. Where heights stretch with the surface, gradients are multiplied with the stretch.
 RELIEF_LOCATION(5) RELIEF_VARYING vec4 vGradientS;
 RELIEF_LOCATION(6) RELIEF_VARYING vec4 vGradientT;
 

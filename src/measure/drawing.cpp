@@ -132,6 +132,9 @@ void timeDrawings(Renderer& renderer, std::span<const Camera> views, int roundCo
             drawing.diceTimes.push_back(stats.diceMs);
             drawing.colorTimes.push_back(stats.colorMs);
             drawing.lightTimes.push_back(stats.lightMs);
+            drawing.shadowTimes.push_back(stats.shadowMs);
+            drawing.occlusionTimes.push_back(stats.occlusionMs);
+            drawing.otherLightsTimes.push_back(stats.otherLightsMs);
         }
 }
 

@@ -186,6 +186,7 @@ std::string makeReport(const Results& results, std::span<const Goal> goals) {
                                   "What heights cost as geometry and as bent normals, and how near each comes to "
                                   "displacement with segments of a quarter of a pixel.",
                                   drawDetailFigures(results)});
+    html += makeSection(results, {Suite::light, "Light", "One picture in several lights and shadings.", ""});
     html += makeSection(
         results,
         {Suite::memory, "Memory",

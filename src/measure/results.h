@@ -34,7 +34,9 @@ enum class Metric {
     // Starting up.
     coldRunTime, warmRunTime, deviceOpenTime, warmFrameTime, coldRunPerFrame,
     // Against displacement whose segments are a quarter as long.
-    errorPerFinerError, timePerFinerTime
+    errorPerFinerError, timePerFinerTime,
+    // Passes of light besides the key light's own.
+    shadowPassTime, occlusionPassTime, otherLightsTime
 };
 // clang-format on
 struct MetricInfo {
@@ -54,10 +56,11 @@ enum class Method {
     tessellation, grid, dicing, dicingInCompute, denseInCompute,
     posedCage, posedCageTessellation, posedCageDicing, denseSkinnedOnDevice, densePosedOnHost,
     preparation, reliefRender,
-    displacement, displacementAndBump, bump, undisplaced
+    displacement, displacementAndBump, bump, undisplaced,
+    keyLight, keyLightWithShadows, keyLightWithOcclusion, threeLights, metal, phong, phongTable, matcap
 };
 // clang-format on
-enum class Suite { bandwidth, frame, animate, memory, scaling, startup, detail };
+enum class Suite { bandwidth, frame, animate, memory, scaling, startup, detail, light };
 /// What a suite varies. `pixelTriangles` are triangles in a picture that has one pixel for each, `segmentPixels` the
 /// length of segments on screen.
 enum class Axis { none, tolerance, triangles, pixelTriangles, faces, segmentPixels };

@@ -79,6 +79,7 @@ struct TimedDrawing {
     RenderOptions options;
     std::function<void(int round)> updatePose = [](int) {}; ///< its time is part of the frame's
     std::vector<double> frameTimes, poseTimes, rateTimes, diceTimes, colorTimes, lightTimes; ///< ms, one per round
+    std::vector<double> shadowTimes, occlusionTimes, otherLightsTimes;
     FrameStats stats; ///< of the first frame, with pipeline counts
 
     /// Adds times, counts, and the bytes that the model of bytes computes of them.
@@ -98,5 +99,6 @@ void measureScaling(SuiteContext& context, const TestScene& scene);
 void measureAnimate(SuiteContext& context, const TestScene& scene);
 void measureBandwidth(SuiteContext& context, const TestScene& scene);
 void measureDetail(SuiteContext& context, const TestScene& scene);
+void measureLight(SuiteContext& context, const TestScene& scene);
 
 } // namespace relief

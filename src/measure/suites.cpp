@@ -25,7 +25,7 @@ constexpr SuiteEntry kSuiteEntries[] = {
     {Suite::memory, measureMemory, false, 1},   {Suite::startup, measureStartup, false, 1},
     {Suite::frame, measureFrame, false, 1},     {Suite::scaling, measureScaling, false, 11},
     {Suite::animate, measureAnimate, false, 1}, {Suite::bandwidth, measureBandwidth, true, 4},
-    {Suite::detail, measureDetail, false, 5},
+    {Suite::detail, measureDetail, false, 5},   {Suite::light, measureLight, false, 1},
 };
 
 std::string readProcessorName() {

@@ -59,6 +59,9 @@ constexpr MetricInfo kMetrics[] = {
     {Metric::coldRunPerFrame, "cold process less tables, per warm frame", Unit::ratio, "The whole process with cold shaders, less OpenSubdiv's tables, divided by the warm frame."},
     {Metric::errorPerFinerError, "error / that of displacement with segments a quarter as long", Unit::ratio, "Picture RMSE of this row divided by that of displacement alone at four times the rate."},
     {Metric::timePerFinerTime, "time / that of displacement with segments a quarter as long", Unit::ratio, "Frame time of this row divided by that of displacement alone at four times the rate."},
+    {Metric::shadowPassTime, "shadow pass", Unit::milliseconds, "Drawing the triangles as the key light sees them, timed by the device."},
+    {Metric::occlusionPassTime, "occlusion pass", Unit::milliseconds, "How much of its surroundings each pixel sees, timed by the device."},
+    {Metric::otherLightsTime, "other lights", Unit::milliseconds, "The shadows and the light of all lights but the key light, timed by the device."},
 };
 // clang-format on
 
@@ -103,12 +106,20 @@ constexpr Word<Method> kMethods[] = {
     {Method::displacementAndBump, "displacement and bump"},
     {Method::bump, "bump"},
     {Method::undisplaced, "undisplaced"},
+    {Method::keyLight, "key light"},
+    {Method::keyLightWithShadows, "key light with shadows"},
+    {Method::keyLightWithOcclusion, "key light and occlusion"},
+    {Method::threeLights, "three lights with shadows"},
+    {Method::metal, "metal"},
+    {Method::phong, "phong"},
+    {Method::phongTable, "table"},
+    {Method::matcap, "matcap"},
 };
 
 constexpr Word<Suite> kSuites[] = {
     {Suite::bandwidth, "bandwidth"}, {Suite::frame, "frame"},     {Suite::animate, "animate"},
     {Suite::memory, "memory"},       {Suite::scaling, "scaling"}, {Suite::startup, "startup"},
-    {Suite::detail, "detail"},
+    {Suite::detail, "detail"},       {Suite::light, "light"},
 };
 
 constexpr Word<Axis> kAxes[] = {
@@ -129,10 +140,10 @@ constexpr bool isComplete(const Row (&table)[kCount], Enum Row::*value, Enum las
         if (std::size_t(table[i].*value) != i) return false;
     return std::size_t(last) + 1 == kCount;
 }
-static_assert(isComplete(kMetrics, &MetricInfo::metric, Metric::timePerFinerTime));
+static_assert(isComplete(kMetrics, &MetricInfo::metric, Metric::otherLightsTime));
 static_assert(isComplete(kUnits, &Word<Unit>::value, Unit::decibels));
-static_assert(isComplete(kMethods, &Word<Method>::value, Method::undisplaced));
-static_assert(isComplete(kSuites, &Word<Suite>::value, Suite::detail));
+static_assert(isComplete(kMethods, &Word<Method>::value, Method::matcap));
+static_assert(isComplete(kSuites, &Word<Suite>::value, Suite::light));
 static_assert(isComplete(kAxes, &Word<Axis>::value, Axis::segmentPixels));
 static_assert(isComplete(kOrigins, &Word<Origin>::value, Origin::computed));
 

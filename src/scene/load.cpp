@@ -166,7 +166,10 @@ const Coordinates& LoadedObject::coordinates() const {
     return animation && restPositions.empty() ? animation->coordinates() : cage.coordinates;
 }
 
-LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
+namespace {
+
+/// load() of an object; `looks` gets the materials of its file, where they are wanted.
+LoadedObject loadObject(const ObjectDesc& desc, CageState state, GltfLooks* looks, const Warn& warn) {
     if (desc.height.path.empty() && !desc.height.layers.empty())
         fail(Failure::usage, "--layer {}: layers are added to a map; name the first one with --height or --vector",
              desc.height.layers.front().path);
@@ -177,6 +180,7 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     checkTexCoords(object.cage, {desc.height.path, desc.material.albedo, desc.material.normalMap.path}, warn);
     checkBentNormals(desc, object.cage);
     placeTexCoords(object.cage, desc);
+    if (looks != nullptr) *looks = readLooks(object.cage, desc, warn);
     const Subdivision subdivision = chooseSubdivision(desc, object.cage);
     const bool isDense = subdivision == Subdivision::none;
     object.wrap = desc.height.wrap.value_or(object.wrap);
@@ -214,8 +218,6 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
     return object;
 }
 
-namespace {
-
 void loadLight(LoadedScene& scene, const SceneDesc& desc) {
     if (!desc.shading.matcap.empty()) scene.matcap = loadMatcap(desc.shading.matcap);
     const std::string& path = desc.lighting.environment;
@@ -227,9 +229,14 @@ void loadLight(LoadedScene& scene, const SceneDesc& desc) {
 
 } // namespace
 
+LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn) {
+    return loadObject(desc, state, nullptr, warn);
+}
+
 LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
     const ObjectDesc& object = desc.object;
-    LoadedScene scene{.object = load(object, state, warn)};
+    GltfLooks looks;
+    LoadedScene scene{.object = loadObject(object, state, &looks, warn)};
     warnOfUnusedTags(scene.object, object, warn);
     if (!object.material.albedo.empty()) {
         loadAlbedo(scene.object, object.material.albedo, warn);
@@ -242,7 +249,7 @@ LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn) {
         if (object.height.path.empty() && object.material.albedo.empty())
             warnOutsideMap(object, scene.object.cage, normals, warn);
     }
-    takeGltfTextures(scene.object, object, warn);
+    takeGltfTextures(scene.object, object, looks, warn);
     warnOfFlatTexCoords(scene.object, object.cage, warn);
     warnOfNoHeights(object, warn);
     splitForTangents(scene.object);

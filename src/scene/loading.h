@@ -1,6 +1,9 @@
 // The parts of load(), which are in files of their own.
 #pragma once
 
+#include <functional>
+
+#include "cage/gltf.h"
 #include "scene/scene.h"
 
 namespace relief {
@@ -37,6 +40,15 @@ struct JoinedPictures {
     Image image; ///< 3 channels
     PictureTiles tiles;
 };
+/// A picture of one unit square.
+struct PictureSquare {
+    ivec2 place{0};                         ///< lowest (s,t)
+    ivec2 size{1};                          ///< pixels
+    std::function<Image(const Warn&)> read; ///< 3 channels or more; is called on any thread
+};
+/// Joins them on all cores, as joinPictures() does; at least one. `name` stands for them in messages.
+JoinedPictures joinSquares(const std::vector<PictureSquare>& squares, const std::optional<vec3>& empty,
+                           const std::string& name, const Warn& warn);
 /// Reads them on all cores. Tiles of other sizes become as large as the largest, or as the picture allows. Squares
 /// without a tile have one color: `empty`, or where there is none the mean of all tiles.
 /// Throws as listTiles and loadColors do; warns of tiles that are made smaller.
@@ -50,10 +62,19 @@ Image loadMatcap(const std::string& path);
 /// Throws Failure::usage for one of object space on a cage that moves, and as loadNormalMap does.
 NormalMap loadNormals(const ObjectDesc& desc, const LoadedObject& object, const Warn& warn);
 
-/// Takes the base color and the normal map that the material of a glTF file names, where the command line names none.
-/// An object has one of each: materials that do not share theirs are warned of, and so is a picture that cannot be
-/// read.
-void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const Warn& warn);
+/// The materials of a glTF file whose textures are taken: those that the command line does not name.
+struct GltfLooks {
+    std::vector<GltfMaterial> materials;
+    bool isSplit = false; ///< the texture coordinates of material i were moved to the unit square (i,0)
+};
+/// Reads them; none for other files. Where materials have textures of their own and nothing but those textures is
+/// looked up by texture coordinates, moves the coordinates of each material into a unit square of its own. Materials
+/// are told apart by their names, and textures that repeat over their faces cannot be moved.
+GltfLooks readLooks(Cage& cage, const ObjectDesc& desc, const Warn& warn);
+
+/// Takes the base color and the normal map of the materials. Materials that are not split share one of each: others are
+/// warned of, and so is a picture that cannot be read.
+void takeGltfTextures(LoadedObject& object, const ObjectDesc& desc, const GltfLooks& looks, const Warn& warn);
 
 /// Warns where the cage's texture coordinates leave the unit square and nothing says how `map` continues there.
 void warnOutsideMap(const ObjectDesc& desc, const Cage& cage, const std::string& map, const Warn& warn);

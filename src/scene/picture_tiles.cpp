@@ -45,17 +45,13 @@ dvec3 putTile(Image& all, const Image& tile, const ivec2& corner, const ivec2& s
 
 } // namespace
 
-JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& empty, const Warn& warn) {
+JoinedPictures joinSquares(const std::vector<PictureSquare>& squares, const std::optional<vec3>& empty,
+                           const std::string& name, const Warn& warn) {
     // Sizes first: memory is taken for what they come to.
-    const std::vector<TileFile> files = listTiles(path);
-    ivec2 size(1), lowest = files.front().place, highest = lowest;
-    for (const TileFile& file : files) {
-        const ImageInfo info = readImageInfo(file.path);
-        if (info.channels < 3)
-            fail(Failure::input, "{}: a map of colors or normals has 3 channels, this one has {}", file.path,
-                 info.channels);
-        size = glm::max(size, ivec2(info.width, info.height));
-        lowest = glm::min(lowest, file.place), highest = glm::max(highest, file.place);
+    ivec2 size(1), lowest = squares.front().place, highest = lowest;
+    for (const PictureSquare& square : squares) {
+        size = glm::max(size, square.size);
+        lowest = glm::min(lowest, square.place), highest = glm::max(highest, square.place);
     }
     JoinedPictures joined{.image = {}, .tiles = {lowest, highest - lowest + 1}};
     const ivec2 largest = size, count = joined.tiles.count;
@@ -65,10 +61,10 @@ JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& 
     };
     while (isTooLarge() && size != ivec2(1)) size = glm::max(size / 2, ivec2(1));
     if (isTooLarge())
-        fail(Failure::input, "{}: its tiles span {} x {} unit squares, more than one picture holds", path, count.x,
+        fail(Failure::input, "{}: its tiles span {} x {} unit squares, more than one picture holds", name, count.x,
              count.y);
     if (size != largest)
-        warn(fmt::format("{}: its tiles span {} x {} unit squares; {} x {} texels are drawn of each", path, count.x,
+        warn(fmt::format("{}: its tiles span {} x {} unit squares; {} x {} texels are drawn of each", name, count.x,
                          count.y, size.x, size.y));
     Image& image = joined.image;
     image = {.width = size.x * count.x, .height = size.y * count.y, .channels = 3, .texels = {}};
@@ -76,28 +72,43 @@ JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& 
 
     // Tiles at once; rows go down.
     const auto cornerOf = [&](const ivec2& place) { return ivec2(place.x - lowest.x, highest.y - place.y) * size; };
-    std::vector<dvec3> sums(files.size());
-    std::vector<std::vector<std::string>> warnings(files.size());
-    forEachAtOnce(files.size(), [&](std::size_t i) {
+    std::vector<dvec3> sums(squares.size());
+    std::vector<std::vector<std::string>> warnings(squares.size());
+    forEachAtOnce(squares.size(), [&](std::size_t i) {
         const Warn collect = [&](const std::string& line) { warnings[i].push_back(line); };
-        const Image tile = empty ? readImage(files[i].path) : loadColors(files[i].path, collect);
-        sums[i] = putTile(image, tile, cornerOf(files[i].place), size);
+        sums[i] = putTile(image, squares[i].read(collect), cornerOf(squares[i].place), size);
     });
     for (const std::vector<std::string>& lines : warnings)
         for (const std::string& line : lines) warn(line);
 
     // Squares without a tile.
     dvec3 mean(0);
-    for (const dvec3& sum : sums) mean += sum / (double(size.x) * size.y * double(files.size()));
+    for (const dvec3& sum : sums) mean += sum / (double(size.x) * size.y * double(squares.size()));
     const Image filler{.width = 1, .height = 1, .channels = 3, .texels = [&] {
                            const vec3 color = empty.value_or(vec3(mean));
                            return std::vector<float>{color.x, color.y, color.z};
                        }()};
     for (int t = lowest.y; t <= highest.y; ++t)
         for (int s = lowest.x; s <= highest.x; ++s)
-            if (std::ranges::find(files, ivec2(s, t), &TileFile::place) == files.end())
+            if (std::ranges::find(squares, ivec2(s, t), &PictureSquare::place) == squares.end())
                 putTile(image, filler, cornerOf({s, t}), size);
     return joined;
+}
+
+JoinedPictures joinPictures(const std::string& path, const std::optional<vec3>& empty, const Warn& warn) {
+    std::vector<PictureSquare> squares;
+    for (const TileFile& file : listTiles(path)) {
+        const ImageInfo info = readImageInfo(file.path);
+        if (info.channels < 3)
+            fail(Failure::input, "{}: a map of colors or normals has 3 channels, this one has {}", file.path,
+                 info.channels);
+        squares.push_back({.place = file.place,
+                           .size = {info.width, info.height},
+                           .read = [path = file.path, isColors = !empty](const Warn& collect) {
+                               return isColors ? loadColors(path, collect) : readImage(path);
+                           }});
+    }
+    return joinSquares(squares, empty, path, warn);
 }
 
 } // namespace relief

@@ -148,7 +148,8 @@ ShaderConstants Dicer::Parts::constantsFor(const SurfaceModel& model, const Dice
     ShaderConstants constants = constantsOf(model, options.normal);
     constants.wantsTexCoords = options.wantsTexCoords;
     constants.hasTexGradients = options.wantsTexGradients;
-    constants.hasSlopes = options.wantsTexGradients && model.functionBendsNormals;
+    constants.hasSlopes =
+        options.wantsTexGradients && (model.functionBendsNormals || model.pictures.slopes.has_value());
     constants.groupSize = device.traits().smallGroup;
     return constants;
 }

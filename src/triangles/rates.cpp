@@ -20,6 +20,10 @@ constexpr const char* kFootprintShader = "footprints.comp";
 constexpr const char* kRateShader = "rates.comp";
 constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
 
+/// Of a segment, the length of a texel of the level that it reads, where fragments show all slopes. A coarser level
+/// would take from the positions what linear triangles could show; what aliases moves points, and bends no normal.
+constexpr float kBumpedSegmentShare = 0.25f;
+
 /// Most segments per edge of hardware tessellation: an even number.
 std::uint32_t tessellatorLimit(const DeviceTraits& traits) {
     constexpr std::uint32_t kMost = 64; // on any device
@@ -41,6 +45,12 @@ std::uint32_t cornerOf(const SurfaceModel& model, std::uint32_t sideEntry) {
     const std::uint32_t edge = sideEntry & kSideEdgeMask;
     if ((sideEntry & kSideReversed) == 0) return model.edges[edge].corners[0];
     return model.edges[edge + ((sideEntry & kSideSplit) != 0 ? 1 : 0)].corners[1];
+}
+
+/// Whether the surface is displaced and fragments show the slopes that its triangles lack.
+bool showsAllSlopes(const SurfaceModel& model) {
+    if (model.function) return model.functionMovesSurface && model.functionBendsNormals;
+    return model.height.has_value() && model.pictures.slopes.has_value();
 }
 
 } // namespace
@@ -68,7 +78,7 @@ struct EdgeRater::Parts {
         double* milliseconds = nullptr; ///< device time, if measured
     };
     std::vector<float> measure(const Measure& what, const SurfaceModel& model, PassInputs inputs);
-    const PendingPipeline& start(const char* file, std::size_t floatCount, const SurfaceModel& model);
+    const PendingPipeline& start(const char* file, const SurfaceModel& model);
     const std::vector<EdgeFootprint>& edgeFootprints(const SurfaceModel& model);
     std::vector<EdgeFootprint> measureFootprints(const SurfaceModel& model);
     std::vector<float> measureRates(const SurfaceModel& model, const TriangleOptions& options, const View& view,
@@ -79,9 +89,10 @@ struct EdgeRater::Parts {
 EdgeRater::EdgeRater(Device& device) : parts_(std::make_unique<Parts>(device)) {}
 EdgeRater::~EdgeRater() = default;
 
-const PendingPipeline& EdgeRater::Parts::start(const char* file, std::size_t floatCount, const SurfaceModel& model) {
+const PendingPipeline& EdgeRater::Parts::start(const char* file, const SurfaceModel& model) {
     ShaderConstants constants = constantsOf(model, NormalKind::limit);
-    constants.wantsTexCoords = floatCount > 1;
+    constants.wantsTexCoords = std::string_view(file) == kFootprintShader;
+    constants.hasSlopes = std::string_view(file) == kRateShader && showsAllSlopes(model); // outlines are refined
     return stages.start(file, model, constants);
 }
 
@@ -100,7 +111,7 @@ std::vector<float> EdgeRater::Parts::measure(const Measure& what, const SurfaceM
     if (what.edgeHeights != nullptr) bindings[kBindEdgeHeights] = what.edgeHeights->binding();
 
     // One submission with the copy to the host: plans of draws wait for the numbers.
-    const Pipeline& pipeline = start(what.file, what.floatCount, model).get();
+    const Pipeline& pipeline = start(what.file, model).get();
     const Download download(device, numbers.size() * sizeof(float));
     const BindingSet set = makeBindingSet(device, pipeline, passLayout(device), bindings);
     device.submitAndWait([&](VkCommandBuffer commands) {
@@ -167,14 +178,15 @@ std::vector<float> EdgeRater::Parts::measureRates(const SurfaceModel& model, con
 }
 
 /// Mip level per corner: the mean, over the edges that meet there, of log2(texels per segment), at least 0. Empty where
-/// all are 0.
+/// all are 0. Texels are smaller than segments where fragments show all slopes.
 std::vector<float> EdgeRater::Parts::cornerLevels(const SurfaceModel& model, const EdgeRates& rates) {
     if (!model.height) return {};
+    const float segmentShare = showsAllSlopes(model) ? kBumpedSegmentShare : 1;
     const std::vector<EdgeFootprint>& edges = edgeFootprints(model);
     std::vector<float> levels(model.cornerFlags.size(), 0), counts(model.cornerFlags.size(), 0);
     bool isAny = false;
     for (std::size_t edge = 0; edge < edges.size(); ++edge) {
-        const float perSegment = edges[edge].texels / rates.rates[edge];
+        const float perSegment = segmentShare * edges[edge].texels / rates.rates[edge];
         const float level = perSegment > 1 ? std::log2(perSegment) : 0; // NaN compares false
         isAny = isAny || level > 0;
         for (const std::uint32_t corner : model.edges[edge].corners) levels[corner] += level, ++counts[corner];
@@ -186,9 +198,8 @@ std::vector<float> EdgeRater::Parts::cornerLevels(const SurfaceModel& model, con
 
 void EdgeRater::startPipelines(const SurfaceModel& model, const TriangleOptions& options) {
     const bool measuresFootprints = model.height && !model.function && model.addressing() != Addressing::faces;
-    if (measuresFootprints && (options.filtersHeights || !options.rate))
-        parts_->start(kFootprintShader, kFootprintFloats, model);
-    if (!options.rate) parts_->start(kRateShader, 1, model);
+    if (measuresFootprints && (options.filtersHeights || !options.rate)) parts_->start(kFootprintShader, model);
+    if (!options.rate) parts_->start(kRateShader, model);
 }
 
 EdgeRates EdgeRater::rates(const SurfaceModel& model, const TriangleOptions& options, const View& view,

@@ -13,10 +13,11 @@ namespace {
 
 class FunctionHeightsOnDevice : public OnDevice {};
 
-FunctionHeights heightsOf(FunctionText text, const Cage& cage, double scale, float bound) {
+FunctionHeights heightsOf(FunctionText text, const Cage& cage, double scale, float bound, double mid) {
     FunctionHeights heights;
     heights.function = std::make_shared<const HeightFunction>(std::move(text));
     heights.scale = scale;
+    heights.mid = mid;
     heights.bound = bound;
     heights.step = float(computeBounds(cage.positions).diagonal() / 8192);
     return heights;
@@ -37,9 +38,10 @@ struct Subject {
     FunctionHeights heights;
     SurfaceModel model{device(), {.surface = &surface, .cagePositions = cage.positions, .function = &heights}};
 
-    Subject(Cage of, const FunctionText& text, double scale, float bound, Scheme scheme = Scheme::catmark)
-        : cage(std::move(of)), options{.scheme = scheme, .isolation = 3}, heights(heightsOf(text, cage, scale, bound)) {
-    }
+    Subject(Cage of, const FunctionText& text, double scale, float bound, Scheme scheme = Scheme::catmark,
+            double mid = 0)
+        : cage(std::move(of)), options{.scheme = scheme, .isolation = 3},
+          heights(heightsOf(text, cage, scale, bound, mid)) {}
 
     /// What the certificate makes of the device's points, with the reference's function at `seconds`.
     [[nodiscard]] RegionErrors errors(double seconds, NormalKind normal = NormalKind::full) {
@@ -57,8 +59,8 @@ struct Subject {
 
 TEST_F(FunctionHeightsOnDevice, areThoseOfAMapOfTheSameFormula) {
     const Cage cage = torusWithSeams();
-    const std::string formula = fmt::format("sin({0} * st.x) * cos({0} * st.y)", 4 * std::numbers::pi);
-    const Subject byFunction(cage, textOf(formula), 0.15, 0.15f);
+    const std::string formula = fmt::format("0.5 + 0.5 * sin({0} * st.x) * cos({0} * st.y)", 4 * std::numbers::pi);
+    const Subject byFunction(cage, textOf(formula), 0.3, 0.15f, Scheme::catmark, 0.5);
     const HeightMap map = sineMap(1024, 0.15);
     const SurfaceModel byMap(device(),
                              {.surface = &byFunction.surface, .cagePositions = cage.positions, .height = &map});
@@ -170,6 +172,9 @@ TEST_F(FunctionHeightsOnDevice, thatAreNoNumbersOrPastTheBoundLeaveNoHole) {
     expectWatertight(subject.model, "wild heights");
     for (const SampleResult& r : sampler().sample(subject.model, sampleEverywhere(subject.surface, 3000).queries)) {
         EXPECT_LE(std::abs(r.h), 0.1f);
+        if (r.p.x > 0.501f) {
+            EXPECT_EQ(r.h, 0) << "no number";
+        }
         EXPECT_TRUE(std::isfinite(r.q.x + r.q.y + r.q.z + r.m.x + r.m.y + r.m.z));
     }
 }

@@ -250,6 +250,52 @@ TEST_F(DetailNormals, ofBothAreThoseOfTheFullMapWhereItIsSteep) {
     }
 }
 
+// Large triangles are seen at outlines, where they have short segments, and where they miss heights that they could
+// show.
+TEST_F(DetailNormals, ofBothMakePicturesOfDisplacementOfAQuarterOfTheSegments) {
+    const HeightMap map = sineMap(512, 0.008, 14);
+    Islands& cube = cubeWithIslands();
+    const auto modelOf = [&](const HeightMap* bump) {
+        return SurfaceModel(
+            device(), {.surface = &cube.surface, .cagePositions = cube.cage.positions, .height = &map, .bump = bump});
+    };
+    const SurfaceModel both = modelOf(&map), displaced = modelOf(nullptr);
+    RenderOptions options;
+    options.path = Path::dice;
+    options.lighting.castsShadows = false;
+    options.bounds.add(dvec3(-2));
+    options.bounds.add(dvec3(2));
+    options.camera = {.eye = {2, 3, 4}, .fieldOfView = 16, .nearDistance = 1, .farDistance = 12};
+    const auto draw = [&](const SurfaceModel& model, double pixels) {
+        options.edgePixels = pixels;
+        return displayed(detailRenderer().render(model, options));
+    };
+    const Image reference = draw(displaced, 0.4);
+    const auto error = [&](const SurfaceModel& model, double pixels) {
+        const Image image = draw(model, pixels);
+        std::vector<double> differences;
+        for (std::size_t i = 0; i < image.texels.size(); ++i)
+            differences.push_back(double(image.texels[i]) - double(reference.texels[i]));
+        return rms(differences);
+    };
+    EXPECT_LT(error(both, 4), 1.1 * error(displaced, 1));
+    EXPECT_GT(error(displaced, 4), 3 * error(displaced, 1));
+
+    // Edges: those that face the eye have the rate that displacement has, those at outlines up to four times as much.
+    EdgeRater rater(device());
+    options.edgePixels = 1;
+    const View view = viewOf(options.camera, 160);
+    const EdgeRates many = rater.rates(both, options, view), few = rater.rates(displaced, options, view);
+    int same = 0, fine = 0;
+    for (std::size_t edge = 0; edge < few.rates.size(); ++edge) {
+        const float ratio = many.rates[edge] / few.rates[edge];
+        EXPECT_TRUE(ratio >= 1 && ratio < 4.01f) << edge << ": " << ratio;
+        same += ratio == 1, fine += ratio > 3;
+    }
+    EXPECT_GT(same, 0);
+    EXPECT_GT(fine, 0);
+}
+
 // Shading does not change with the rate: that is what jumps where displacement alone loses heights.
 TEST_F(DetailNormals, ofBothHoldStillWhileRatesChange) {
     const HeightMap map = sineMap(512, 0.004, 18);

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "frame/device.h"
 #include "meshes.h"
 
@@ -149,6 +151,55 @@ TEST_F(ShadingOnDevice, aMirrorShowsTheEnvironment) {
     EXPECT_GT(count, 3 * 10'000);
     EXPECT_LT(sum / count, 0.002);
     EXPECT_LT(largest, 0.03);
+}
+
+// A mirror in what was captured where it stands, with another ball beside it: each pixel shows what its mirrored
+// direction meets, as directions and spheres in double precision say.
+TEST_F(ShadingOnDevice, aMirrorShowsCapturedSurroundings) {
+    BallScene scene(192);
+    const EnvironmentPicture sky = equirectOf(256, smoothLight);
+    const GpuEnvironment plainSky = uploadEnvironment(device(), makeEnvironment(sky));
+    const dvec3 beside(-1.5, 1.0, 4.0); // the centre of a black ball of radius 1, which sends no light
+    RenderOptions around = scene.options;
+    around.lighting.environment = &plainSky;
+    around.lighting.keyStrength = 0;
+    around.bounds.add(beside - 1.0);
+    around.bounds.add(beside + 1.0);
+    around.shading = Shading::phong;
+    around.phong = {.ambient = 0, .diffuse = 0, .specular = 0, .exponent = 1};
+    const Instance black(scene.model, {.albedo = vec3(0)}, glm::translate(mat4(1), vec3(beside)));
+    const EnvironmentPicture captured =
+        captureSurroundings(device(), std::span(&black, 1), around, {.at = dvec3(0), .side = 512, .behind = &sky});
+    const GpuEnvironment environment = uploadEnvironment(device(), makeEnvironment(captured, true));
+    scene.options.lighting.environment = &environment;
+    const Image image = scene.drawDark({.albedo = vec3(1), .roughness = 0, .metallic = 1.0f});
+
+    const Camera& camera = scene.options.camera;
+    const dvec3 back = glm::normalize(camera.eye), right = glm::normalize(glm::cross(dvec3(0, 1, 0), back)),
+                up = glm::cross(back, right);
+    const double tangent = std::tan(glm::radians(camera.fieldOfView) / 2), distance = glm::length(camera.eye);
+    int count = 0, blacks = 0, wrong = 0;
+    double sum = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const dvec3 ray = glm::normalize(((2 * x + 1.0) / kSide - 1) * tangent * right -
+                                             ((2 * y + 1.0) / kSide - 1) * tangent * up - back);
+            const double b = glm::dot(ray, camera.eye), root = b * b - distance * distance + 1;
+            if (root < 0.05 || !isCovered(image, x, y)) continue;
+            const dvec3 n = camera.eye + (-b - std::sqrt(root)) * ray, mirrored = ray - 2 * glm::dot(ray, n) * n;
+            // Environments are far away: what a direction shows is what is seen along it from the middle.
+            const double along = glm::dot(mirrored, beside), off = glm::length(beside - along * mirrored);
+            const bool isBlack = along > 0 && off < 1;
+            if (along > 0 && std::abs(off - 1) < 0.15) continue; // outlines are blurred by the pixel's footprint
+            const dvec3 expected = isBlack ? dvec3(0) : smoothLight(mirrored);
+            double error = 0;
+            for (int c = 0; c < 3; ++c) error = std::max(error, std::abs(image.at(x, y)[c] - expected[c]));
+            ++count, blacks += isBlack, wrong += error > 0.03, sum += error;
+        }
+    EXPECT_GT(count, 8000);
+    EXPECT_GT(blacks, 50);
+    EXPECT_LE(wrong, count / 100);
+    EXPECT_LT(sum / count, 0.006);
 }
 
 TEST_F(ShadingOnDevice, reflectionsAgreeBetweenShapesOfAnEnvironment) {

@@ -91,6 +91,44 @@ TEST_F(GltfTextures, thatMaterialsDoNotShareAreIgnored) {
     EXPECT_TRUE(warnings_.has("--albedo"));
 }
 
+// Two halves of a plane, each with a material, a color and a normal map of its own; the second multiplies its color.
+TEST_F(GltfTextures, ofSeveralMaterialsAreTheirOwn) {
+    GltfFile file = plane();
+    Json& primitives = file.json["meshes"][0]["primitives"];
+    primitives[0]["indices"] = file.add(std::vector<std::uint32_t>{0, 1, 4, 0, 4, 3});
+    Json second = primitives[0];
+    second["indices"] = file.add(std::vector<std::uint32_t>{1, 2, 5, 1, 5, 4});
+    second["material"] = 1;
+    primitives.push_back(second);
+    const std::string green = pngOf(colored({0, 1, 0.5f}));
+    file.json["images"].push_back(
+        {{"bufferView", file.addView(std::vector<char>(green.begin(), green.end()))}, {"mimeType", "image/png"}});
+    file.json["textures"].push_back({{"source", 2}});
+    file.json["materials"].push_back(
+        {{"name", "other"},
+         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 2}}}, {"baseColorFactor", {1, 0.5, 1, 1}}}}});
+    const LoadedObject object = loadFile(file);
+    EXPECT_TRUE(warnings_.lines.empty()) << warnings_.lines.front();
+    ASSERT_TRUE(object.albedo && object.normalMap);
+    EXPECT_EQ(object.albedoTiles.count, ivec2(2, 1));
+    const int middle = object.albedo->height / 2, width = object.albedo->width;
+    EXPECT_NEAR(object.albedo->at(1, middle)[1], 0.5, 0.01) << "the first material";
+    EXPECT_NEAR(object.albedo->at(width - 2, middle)[1], 0.735, 0.01) << "half of the light of a code of 1";
+    EXPECT_NEAR(object.albedo->at(width - 2, middle)[2], 0.5, 0.01);
+    EXPECT_EQ(object.normalMap->tiles.count, ivec2(2, 1));
+    const auto normalAt = [&](int x) {
+        const int row = object.normalMap->height - 2;
+        return object.normalMap->normals[std::size_t(row) * std::size_t(object.normalMap->width) + std::size_t(x)];
+    };
+    EXPECT_LT(glm::length(normalAt(1) - glm::normalize(kTilted)), 0.01f);
+    EXPECT_LT(glm::length(normalAt(object.normalMap->width - 2) - vec3(0, 0, 1)), 0.01f) << "it has no normal map";
+    // Faces of the second material lie in the second unit square; edges that both meet at are split.
+    for (std::size_t corner = 0; corner < 12; ++corner) {
+        const vec2 st = object.cage.texCoords[object.cage.texCorners[corner]];
+        EXPECT_TRUE(corner < 6 ? st.x <= 1 : st.x >= 1) << corner;
+    }
+}
+
 TEST_F(GltfTextures, thatCannotBeDecodedAreWarnedOf) {
     GltfFile file = plane();
     file.json["images"][0] = {{"uri", "data:image/png;base64," + base64("no picture")}};
@@ -114,6 +152,7 @@ TEST_F(GltfTextures, thatMaterialsUseInOtherWaysAreThoseOfTheFirst) {
     EXPECT_TRUE(warnings_.lines.empty()) << warnings_.lines.front();
     file.json["materials"][0]["name"] = "skin";
     file.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 1};
+    file.json["materials"][1]["name"] = "skin"; // names do not tell them apart
     file.json["materials"][1]["normalTexture"]["scale"] = 2;
     const LoadedObject object = loadFile(file);
     EXPECT_EQ(object.textureColor.value(), vec3(0.5f, 0.25f, 1));
