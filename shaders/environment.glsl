@@ -14,7 +14,7 @@ vec3 irradiance(vec3 n) {
                             inputs.light.irradiance[7] * (n.x * n.z) + inputs.light.irradiance[8] * (n.x * n.x - n.y * n.y));
 }
 
-// Where the turned environment has a direction: of its columns the angle grows clockwise.
+// Where a direction lies in the turned environment. The azimuth of its columns grows clockwise.
 vec2 equirectangular(vec3 d) {
     return vec2(atan(d.x, -d.z) / (2.0 * kPi) + 0.5 + inputs.light.environmentTurn, acos(clamp(d.y, -1.0, 1.0)) / kPi);
 }

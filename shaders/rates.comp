@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 RELIEF_TABLE(kBindEdgeHeights, float, edgeHeightRange)
 
-const float kOutlineSegment = 0.25; // the length of segments at outlines, in those of others
+const float kOutlineSegment = 0.25; // length of segments at outlines, relative to other segments
 const float kOutlineCosine = 0.3;   // of the angle at which segments begin to be shorter
 
 // Where fragments show all slopes, large triangles are seen at outlines only: of the surface, and of its relief, which hides more of

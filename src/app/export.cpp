@@ -35,7 +35,8 @@ struct Exported {
 Exported sew(const ExportArgs& args) {
     const double start = secondsNow();
     const ObjectDesc& desc = args.scene.object;
-    if (desc.subdivision || !desc.height.path.empty() || !desc.height.function.empty() || !desc.motion.isStill())
+    if (desc.subdivision || !desc.height.path.empty() || !desc.height.function.empty() || !desc.motion.isStill() ||
+        desc.weld || desc.uvSet != 0 || args.triangles.rate)
         fail(Failure::usage,
              "{}: the triangles of a geometry image are exported as they are, without heights and poses", desc.cage);
     const GeometryImage image = readGeometryImage(desc.cage);

@@ -29,7 +29,7 @@ struct GeometryImageArgs {
     Output output;
 };
 
-/// What is said of an image. Lengths are in units of the positions.
+/// What is reported about an image. Lengths are in units of the positions.
 struct GeometryImageFacts {
     GeometryImageReport spread;
     int size = 0;
@@ -67,7 +67,7 @@ DenseMesh diceObject(const GeometryImageArgs& args, LoadedObject object, const W
     return mesh;
 }
 
-/// Triangles of a file, wound alike.
+/// Turns triangles of a file so that all are wound alike.
 DenseMesh windSource(DenseMesh mesh, const std::string& path, const Warn& warn) {
     TriangleMesh triangles{.positions = mesh.positions, .indices = std::move(mesh.indices)};
     const SculptFaults faults = windAlike(triangles);
@@ -81,6 +81,13 @@ DenseMesh windSource(DenseMesh mesh, const std::string& path, const Warn& warn) 
 DenseMesh loadSource(const GeometryImageArgs& args, const Warn& warn) {
     const std::string& path = args.object.cage;
     if (isTriangleFile(path)) {
+        const ObjectDesc& desc = args.object;
+        if (desc.subdivision || !desc.height.path.empty() || !desc.height.function.empty() || desc.weld || desc.mip ||
+            args.rate || !desc.motion.isStill())
+            fail(Failure::usage,
+                 "{}: the triangles of a file are taken as they are; what displaces, moves and divides "
+                 "surfaces is for cages",
+                 path);
         TriangleMesh read = readTriangles(path);
         return windSource({.positions = std::move(read.positions),
                            .indices = std::move(read.indices),

@@ -103,7 +103,7 @@ int view(const ViewArgs& args, const CLI::App& app) {
                         .listFrames = [&](const Animation* moving) { return listFrames(animation, moving); },
                         .hasFrames = !animation.frames.empty(),
                         .given = listGiven(app),
-                        .checked = listCheckOptions(app),
+                        .checkOptions = listCheckOptions(app),
                         .playsAtOnce = args.playsAtOnce,
                         .quitAfter = args.quitAfter,
                         .screenshot = args.screenshot,

@@ -1,4 +1,4 @@
-// Maps per face of other maps.
+// Converts maps over texture coordinates to maps per face.
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +8,7 @@ namespace relief {
 namespace {
 
 constexpr int kMostPerSide = 4096;
+constexpr double kMostNodes = double(1 << 28); ///< a gigabyte of floats
 
 /// Segments of a face that are as fine as the texels of a map under it, as powers of two.
 ivec2 chooseSegments(const ReferenceSurface& reference, int face, const dvec2& texels) {
@@ -39,6 +40,13 @@ HeightMap toFaceMap(const HeightMap& map, const MapPlacement& placement, const S
         perFace.push_back(reference.isHole(face) ? ivec2(0)
                           : segments             ? ivec2(int(std::lround(std::log2(*segments))))
                                                  : chooseSegments(reference, face, texels));
+    double nodes = 0;
+    for (const ivec2& each : perFace) nodes += (std::exp2(each.x) + 1) * (std::exp2(each.y) + 1);
+    if (nodes > kMostNodes)
+        fail(Failure::input,
+             "a map per face as fine as its textures would have {:.3g} heights, {:.3g} are the most; "
+             "repeat maps less often, or make them smaller",
+             nodes, kMostNodes);
     return makeFaceMap(surface, perFace, [&](int face, const dvec2& uv) {
         return sampleHeight(map, {.face = face, .uv = uv, .st = placement.at(reference.texture(face, uv).st)}).h;
     });

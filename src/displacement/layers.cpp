@@ -148,11 +148,11 @@ std::vector<ivec2> listPlaces(std::span<const MapLayer> layers) {
     return places;
 }
 
-/// One component of the sum, as a set of tiles.
-HeightMap addTiles(std::span<const MapLayer> layers, int component, std::span<const ivec2> places) {
+/// One of `count` components of the sum, as a set of tiles.
+HeightMap addTiles(std::span<const MapLayer> layers, int component, int count, std::span<const ivec2> places) {
     std::vector<HeightMap> maps;
     for (const ivec2& place : places) {
-        const ivec2 size = finestSize(layers, place, double(places.size()));
+        const ivec2 size = finestSize(layers, place, double(places.size()) * count);
         maps.push_back(makeHeightMap(size.x, size.y, addOver(layers, component, place, size), 0, 1, Wrap::clamp));
     }
     return makeTileSet(maps, places);
@@ -200,7 +200,7 @@ HeightMap addVectors(std::span<const MapLayer> layers, bool isOfTiles, VectorSpa
     const ivec2 size = isOfTiles ? ivec2(0) : finestSize(layers, {}, 3);
     for (int k = 0; k < 3; ++k)
         components[std::size_t(k)] = isOfTiles
-                                         ? addTiles(layers, k, places)
+                                         ? addTiles(layers, k, 3, places)
                                          : makeHeightMap(size.x, size.y, addOver(layers, k, {}, size), 0, 1, wrap);
     return joinComponents(components, space, format);
 }
@@ -220,7 +220,7 @@ EncodedMap addLayers(std::span<const MapLayer> layers, Wrap wrap, MapFormat form
         return {addFaces(layers), {.format = format, .blocks = {}}}; // encoded once it is fitted
     const bool isOfTiles = addressing == Addressing::tiles;
     if (space) return {addVectors(layers, isOfTiles, *space, wrap, format), {}};
-    if (isOfTiles) return encode(addTiles(layers, 2, listPlaces(layers)), format);
+    if (isOfTiles) return encode(addTiles(layers, 2, 1, listPlaces(layers)), format);
     const ivec2 size = finestSize(layers, {}, 1);
     return encode(makeHeightMap(size.x, size.y, addOver(layers, 2, {}, size), 0, 1, wrap), format);
 }

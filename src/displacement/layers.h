@@ -16,8 +16,8 @@ struct MapPlacement {
 
 /// A map per face that has the heights of another map of the same surface, in cage units, at its nodes. `reference` is
 /// the surface's; the map is looked up at its placement where it is over texture coordinates. `segments`: along each
-/// side of each face, a power of two; without it as many as the texels under the face are, 4096 at most.
-/// Throws as linkFaces does.
+/// side of each face, a power of two; without it as many as there are texels under the face, 4096 at
+/// most. Throws as linkFaces does, and Failure::input for more than 2^28 nodes.
 HeightMap toFaceMap(const HeightMap& map, const MapPlacement& placement, const Surface& surface,
                     const ReferenceSurface& reference, std::optional<int> segments = {});
 

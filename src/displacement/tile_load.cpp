@@ -30,7 +30,9 @@ void checkSetMemory(const std::string& path, const HeightMap& set, MapFormat for
         const ivec2 size = tile.size + 2 * kTileApron;
         texels += std::uint64_t(size.x) * std::uint64_t(size.y);
     }
-    const std::uint64_t bytes = std::uint64_t(components) * (2 * sizeof(float) * texels + mapBytes(format, set));
+    // Of vectors there are the components as read and as encoded, and their lengths.
+    const std::uint64_t copies = components == 1 ? 2 : 3;
+    const std::uint64_t bytes = std::uint64_t(components) * (copies * sizeof(float) * texels + mapBytes(format, set));
     const std::uint64_t available = availableBytes();
     if (available > 0 && bytes > available)
         fail(Failure::device, "{}: its {} tiles take {} of memory; {} are available: use smaller tiles", path,

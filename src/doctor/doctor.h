@@ -107,8 +107,9 @@ struct DoctorOptions {
 
 /// Reads a map and examines its values, its layout on the surface and the surface that it makes. Of vector maps these
 /// are the midlevels of the components, their order, and seams, islands and folds by the lengths of the vectors. Of a
-/// set of tiles each file is examined as a map of its own; of a map per face values and folds are, for it has no
-/// layout. Throws as loadHeightMap and loadVectorMap do, and Failure::input for a map per face of another cage.
+/// set of tiles each file is examined as a map of its own, but of vectors the first header and all values; of a map per
+/// face values and folds are, for it has no layout. Throws as loadHeightMap and loadVectorMap do, and Failure::input
+/// for a map per face of another cage.
 Examination examineMap(const std::string& path, const DoctorOptions& options, const DoctorSubject& subject);
 
 /// Draws the layout over the heights: folds red, stretched texels orange, empty islands blue, seams whose sides

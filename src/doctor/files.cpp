@@ -39,11 +39,12 @@ void examineFile(const MapCase& map, const std::string& path, Findings& findings
                             .figure = 1});
     const HeightCensus census = takeCensus(path, map.info, map.options.height);
     if (census.voidCount() > 0)
-        findings.push_back({.kind = FindingKind::voids,
-                            .text = fmt::format("{} of {} texels are voids ({}); they are filled from around them",
-                                                census.voidCount(), map.map.texels.size(), census.voidReason()),
-                            .advice = "fill them in the program that made the map",
-                            .figure = double(census.voidCount())});
+        findings.push_back(
+            {.kind = FindingKind::voids,
+             .text = fmt::format("{} of {} texels are voids ({}); they are filled from around them", census.voidCount(),
+                                 std::size_t(map.info.width) * std::size_t(map.info.height), census.voidReason()),
+             .advice = "fill them in the program that made the map",
+             .figure = double(census.voidCount())});
     const std::vector<std::string> layers = layersOf(map.info);
     if (layers.size() > 1 && map.options.height.channel.empty())
         findings.push_back({.kind = FindingKind::channel,

@@ -29,7 +29,8 @@ Environment makeEnvironment(const EnvironmentPicture& picture, bool isSharp = fa
 /// Loads an environment of the shape that its sides say. Throws as readEnvironment does.
 Environment loadEnvironment(const std::string& path);
 
-/// The coefficients of an environment that is turned about Y by degrees, counter-clockwise seen from above.
+/// Returns the irradiance coefficients of an environment that is turned about Y by `degrees`, counter-clockwise seen
+/// from above.
 std::array<vec3, 9> turnIrradiance(const vec3 (&irradiance)[9], double degrees);
 
 /// An environment on the device, which owns its texture: what Lighting refers to.

@@ -43,7 +43,7 @@ TexelBuffer makeSampleTable(Device& device, const RendererDesc& desc, const char
 Buffer makePictureBuffer(Device& device, const RendererDesc& desc);
 Texture makeInstanceTarget(Device& device, const RendererDesc& desc, VkSampleCountFlagBits samples);
 
-/// The images that the device draws layers to, one sample per pixel; made when it first does.
+/// The images that the fixed function draws layers to, one sample per pixel; made when it first does.
 struct LayerTargets {
     Texture normals, surfacePoints, depths; ///< what layers.frag writes
     std::optional<Texture> instances;

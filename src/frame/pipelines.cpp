@@ -16,7 +16,6 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     const NormalKind normal = row.hasNormals ? frame.options.normal : NormalKind::limit;
     ShaderConstants c =
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
-    // What is not asked for is not compiled: passes without normals have neither pictures nor slopes.
     c.pass = row.constant;
     // Vertices of a diced mesh have their heights already; motion is evaluated again.
     if (drawn.surface != nullptr && (frame.path != Path::dice || pass == DrawPass::layers)) {
@@ -25,6 +24,7 @@ ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& dr
     }
     c.hasInstances = row.marksInstances && frame.hasInstances();
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
+    // What is not asked for is not compiled: passes without normals have neither pictures nor slopes.
     const ModelPictures& pictures = drawn.pictures();
     c.hasPictureTiles = row.hasNormals && pictures.haveTiles();
     if (row.bendsNormals) {
@@ -92,9 +92,9 @@ const PendingPipeline& Renderer::Parts::drawPipeline(const Frame& frame, const D
     graphics.additiveBlend = row.isAdditive;
     graphics.polygonMode = row.drawsLines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
     graphics.depthBias = row.drawsLines;
-    PendingPipeline& made = pipelines[key] = startGraphics(device, std::move(graphics));
-    if (drawn.function() != nullptr) made.get(); // its code lives as long as the function
-    return made;
+    // The code of a height function lives as long as the function: no thread may come to it later.
+    return pipelines[key] = drawn.function() != nullptr ? PendingPipeline(makeGraphics(device, graphics))
+                                                        : startGraphics(device, std::move(graphics));
 }
 
 const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const ShaderConstants& constants,
@@ -106,10 +106,9 @@ const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const 
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
     const Stage stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, variant.function, variant.isTriangles);
-    PendingPipeline& made = pipelines[key] =
-        startCompute(device, {.name = file, .stage = stage, .constants = values, .layout = passLayout(device)});
-    if (variant.function != nullptr) made.get(); // its code lives as long as the function
-    return made;
+    const ComputeDesc desc{.name = file, .stage = stage, .constants = values, .layout = passLayout(device)};
+    return pipelines[key] = variant.function != nullptr ? PendingPipeline(makeCompute(device, desc)) // as above
+                                                        : startCompute(device, desc);
 }
 
 const PendingPipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLight) {
@@ -131,7 +130,7 @@ const PendingPipeline& Renderer::Parts::occlusionPipeline(const Frame& frame) {
 
 // --- in advance -----------------------------------------------------------------------------------------------------
 
-/// All of a picture's, in the order in which it needs them.
+/// Starts all pipelines of a picture, in the order in which it needs them.
 void Renderer::Parts::startPipelines(const Frame& frame) {
     const auto startPass = [&](const Drawn& drawn, DrawPass pass, Raster raster) {
         if (raster == Raster::compute) {
@@ -160,8 +159,8 @@ constexpr double kTrianglesPerPixel = 3;
 
 } // namespace
 
-/// Those that a picture most probably needs, before there are rates and triangles. Not of height functions: their
-/// shaders are made at once, which a wrong guess would make expensive.
+/// Starts the pipelines that a picture most probably needs, before rates and triangles are known. Height functions are
+/// excluded: their pipelines are made at once, so that a wrong guess would cost time.
 void Renderer::Parts::startGuessedPipelines(Frame& frame) {
     const TriangleOptions& o = frame.options;
     const auto isFunction = [](const Drawn& drawn) { return drawn.function() != nullptr; };

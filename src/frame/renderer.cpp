@@ -64,7 +64,7 @@ void Renderer::Parts::useEnvironment(Frame& frame) {
     }
     const double azimuth = frame.options.lighting.environmentAzimuth;
     std::ranges::copy(turnIrradiance(environment->irradiance, azimuth), frame.inputs.light.irradiance);
-    frame.inputs.light.environmentTurn = float(azimuth / 360);
+    frame.inputs.light.environmentTurn = float(std::remainder(azimuth, 360.0) / 360);
     for (pass::Material& material : frame.materials) {
         material.environmentLevel = environment->levelOf(material.roughness);
         if (frame.shading == kShadingPhysical) material.environmentLevel = std::round(material.environmentLevel);

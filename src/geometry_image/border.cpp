@@ -48,17 +48,18 @@ std::vector<int> allotSegments(const CutMesh& mesh, std::span<const BorderPath> 
         if (paths[p].mate < p) continue;
         add(p, std::max(fewestSegments(mesh, paths[p]), int(ideals[p])));
     }
-    // Those that lack most get one more, those that have most in excess one less. Where one segment is left over, and
-    // only pairs could take it, a path without a mate takes it.
+    // Those that lack most get one more, those that have most in excess one less. Pairs change by two: where one
+    // segment is left over, a path without a mate takes it; where one is too many and no such path can give it, a pair
+    // gives two and such a path takes one back.
     while (left != 0) {
         std::size_t best = paths.size();
         double most = -std::numeric_limits<double>::infinity();
         for (std::size_t p = 0; p < paths.size(); ++p) {
             if (paths[p].mate < p) continue;
             if (left > 0 && timesOf(paths, p) > left) continue;
-            if (left < 0 && (counts[p] <= fewestSegments(mesh, paths[p]) || (left == -1 && timesOf(paths, p) == 2)))
-                continue;
-            const double need = (left > 0 ? 1 : -1) * (ideals[p] - counts[p]);
+            if (left < 0 && counts[p] <= fewestSegments(mesh, paths[p])) continue;
+            const double lastChoice = left == -1 && timesOf(paths, p) == 2 ? 8.0 * side : 0;
+            const double need = (left > 0 ? 1 : -1) * (ideals[p] - counts[p]) - lastChoice;
             if (need > most) most = need, best = p;
         }
         RELIEF_CHECK(best < paths.size());

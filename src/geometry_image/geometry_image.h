@@ -64,13 +64,15 @@ class SpreadSurface {
 public:
     /// Cuts and spreads a mesh whose vertices at equal positions are one; normals may be empty. `name` stands for it in
     /// messages. Throws Failure::input where it has edges of more than two triangles, vertices where parts only meet,
-    /// triangles that are wound against each other, more than one part, no area, or too many triangles.
+    /// triangles that are wound against each other, more than one part, no area, or too many triangles,
+    /// or where its cut is too long for the size, and Failure::usage for a size that is none.
     SpreadSurface(const DenseMesh& mesh, const std::string& name, const GeometryImageOptions& options);
     ~SpreadSurface();
     SpreadSurface(SpreadSurface&&) noexcept;
     SpreadSurface& operator=(SpreadSurface&&) noexcept;
 
-    /// Samples the surface at a multiple of sideSegments() segments per side. Throws Failure::usage for another size.
+    /// Samples the surface at a multiple of sideSegments() segments per side. Throws Failure::usage for another size,
+    /// and Failure::input where the triangles of a mip cannot be sewn.
     [[nodiscard]] GeometryImage sample(int size) const;
     /// Segments along one side of the coarsest image that sews: (options.size - 1) / 2^k.
     [[nodiscard]] int sideSegments() const;
@@ -107,7 +109,7 @@ MeshFaults findFaults(std::span<const std::uint32_t> indices);
 
 /// True for the header of a picture that says that it is a geometry image.
 bool isGeometryImage(const ImageInfo& info);
-/// True for the name of an .exr file that can be read and is a geometry image.
+/// Whether an .exr file is a geometry image; false for other extensions. Throws as readImageInfo does.
 bool isGeometryImageFile(const std::string& path);
 
 /// Reads what a header says of the size, sewing and coordinates; no points. Throws Failure::input where that is

@@ -23,9 +23,9 @@ std::vector<dvec2> placeOnCircle(const CutMesh& mesh, const Disk& disk, std::spa
 
 /// Spreads the disk with its border at `border`, which is convex and holds the border in order: each inner copy is the
 /// mean of its neighbours, weighted by mean value coordinates (Floater 2003) made symmetric, or by cotangents where
-/// none is negative: no triangle turns over (Tutte 1963; Floater 1997). `steps`: as often the weights are divided by
-/// the stretch at both ends of their edge (Yoshizawa, Belyaev and Seidel 2004, eq. 4), which moves points to where the
-/// map stretches most; the map of the least stretch is the result.
+/// none is negative: no triangle turns over (Tutte 1963; Floater 1997). `steps`: how many times the weights are divided
+/// by the stretch at both ends of their edge (Yoshizawa, Belyaev and Seidel 2004, eq. 4), which moves points to where
+/// the map stretches most; the map of the least stretch is the result.
 SpreadMap spreadInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2> border, int steps);
 
 /// Moves each inner copy in turn, by steepest descent, to where the L2 stretch of the triangles around it is smaller

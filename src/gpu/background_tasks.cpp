@@ -35,6 +35,12 @@ void BackgroundTasks::add(std::function<void()> task) {
     changed_.notify_one();
 }
 
+void BackgroundTasks::settle() {
+    std::unique_lock lock(mutex_);
+    tasks_.clear();
+    changed_.wait(lock, [this] { return runningCount_ == 0; });
+}
+
 void BackgroundTasks::startThread() {
     try {
         threads_.emplace_back([this] { work(); });
@@ -49,9 +55,11 @@ void BackgroundTasks::work() {
         if (isEnding_) return;
         const std::function<void()> task = std::move(tasks_.front());
         tasks_.pop_front();
+        ++runningCount_;
         lock.unlock();
         task();
         lock.lock();
+        if (--runningCount_ == 0) changed_.notify_all();
     }
 }
 

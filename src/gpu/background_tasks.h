@@ -10,7 +10,7 @@
 
 namespace relief {
 
-/// A few threads, started with the first task.
+/// Up to four threads; each of the first tasks starts one. add() and settle() are called by one thread alone.
 class BackgroundTasks {
 public:
     BackgroundTasks() = default;
@@ -23,6 +23,9 @@ public:
     /// with one core, or where no thread can be started, it is not.
     void add(std::function<void()> task);
 
+    /// Drops tasks that have not begun, and waits for those that have.
+    void settle();
+
 private:
     void startThread();
     void work();
@@ -31,6 +34,7 @@ private:
     std::condition_variable changed_;
     std::deque<std::function<void()>> tasks_; ///< that have not begun
     std::vector<std::thread> threads_;
+    std::size_t runningCount_ = 0;
     bool isEnding_ = false;
 };
 

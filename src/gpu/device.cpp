@@ -95,6 +95,7 @@ void Device::makeInstance(bool validate, const DeviceDesc& desc) {
              "vulkan-validationlayers)",
              kValidationLayer);
     isValidating_ = validate;
+    messages_ = std::make_unique<MessageLog>();
     instance_ = createInstance(validate, messages_.get(), desc.surfaceExtensions);
     if (desc.makeSurface) surface_ = desc.makeSurface(instance_);
     if (!validate) return;
@@ -259,6 +260,12 @@ void Device::submit(std::span<const VkCommandBuffer> commands) {
     checkVulkan(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "vkWaitForFences");
     checkVulkan(vkResetFences(device_, 1, &fence_), "vkResetFences");
     uploads_->clear();
+}
+
+std::vector<std::string> Device::validationMessages() const {
+    backgroundTasks_->settle();
+    const std::lock_guard lock(messages_->mutex);
+    return messages_->lines;
 }
 
 std::uint64_t Device::allocatedBytes() const { return memory_->takenBytes() - uploads_->stagedBytes(); }

@@ -14,6 +14,7 @@
 namespace relief {
 
 class BackgroundTasks;
+struct MessageLog;
 class DescriptorPools;
 class PipelineCache;
 class DeviceMemory;
@@ -109,7 +110,8 @@ public:
     [[nodiscard]] VkSurfaceKHR surface() const { return surface_; } ///< null without a window
     [[nodiscard]] bool isValidating() const { return isValidating_; }
     /// Warnings and errors of the validation layer so far, one per line; each was printed to stderr as well.
-    [[nodiscard]] const std::vector<std::string>& validationMessages() const { return *messages_; }
+    /// Waits for pipelines in the making, so that none is missing.
+    [[nodiscard]] std::vector<std::string> validationMessages() const;
 
     /// Bytes that buffers and images take now, without the copies of uploads that wait for the next submission.
     [[nodiscard]] std::uint64_t allocatedBytes() const;
@@ -127,7 +129,8 @@ public:
     void submitAndWait(const std::function<void(VkCommandBuffer)>& record);
     /// Submits pending uploads and waits; does nothing where there are none.
     void submitUploads();
-    /// Submissions so far; the host waited for each of them.
+    /// Submissions by submitAndWait() and submitUploads() so far; the host waited for each of them. Frames that a
+    /// Swapchain shows are not counted.
     [[nodiscard]] std::uint64_t submitCount() const { return submitCount_; }
 
     /// A name that debuggers and the validation layer show, where the instance has VK_EXT_debug_utils.
@@ -163,7 +166,7 @@ private:
     VkFence fence_ = VK_NULL_HANDLE;
     PFN_vkSetDebugUtilsObjectNameEXT nameObject_ = nullptr;
     DeviceTraits traits_;
-    std::unique_ptr<std::vector<std::string>> messages_ = std::make_unique<std::vector<std::string>>();
+    std::unique_ptr<MessageLog> messages_;
     std::unique_ptr<DeviceMemory> memory_;
     std::unique_ptr<PendingUploads> uploads_;
     std::unique_ptr<DescriptorPools> descriptorPools_;

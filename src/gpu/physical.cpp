@@ -18,9 +18,9 @@ constexpr std::uint32_t kLavapipeTrianglesInFlight = 131072;
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    static std::mutex mutex; // pipelines are made by several threads
-    const std::lock_guard lock(mutex);
-    static_cast<std::vector<std::string>*>(user)->emplace_back(data->pMessage);
+    auto& log = *static_cast<MessageLog*>(user);
+    const std::lock_guard lock(log.mutex); // pipelines are made by several threads
+    log.lines.emplace_back(data->pMessage);
     std::cerr << "vulkan: " << data->pMessage << '\n';
     return VK_FALSE;
 }
@@ -40,7 +40,7 @@ std::uint32_t texelBufferElementsAsked(std::optional<std::uint32_t> asked) {
 
 } // namespace
 
-VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>* messages) {
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(MessageLog* messages) {
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
@@ -74,8 +74,7 @@ bool hasInstanceExtension(const char* name) {
     return std::ranges::any_of(extensions, [&](const auto& e) { return std::string_view(e.extensionName) == name; });
 }
 
-VkInstance createInstance(bool validate, std::vector<std::string>* messages,
-                          std::span<const char* const> surfaceExtensions) {
+VkInstance createInstance(bool validate, MessageLog* messages, std::span<const char* const> surfaceExtensions) {
     VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     app.pApplicationName = app.pEngineName = "relief";
     app.apiVersion = VK_API_VERSION_1_3;

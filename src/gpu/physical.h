@@ -1,6 +1,8 @@
 // Internal: the instance and what it says of physical devices.
 #pragma once
 
+#include <mutex>
+
 #include "gpu/device.h"
 
 namespace relief {
@@ -11,14 +13,19 @@ bool hasLayer(const char* name);
 bool hasInstanceExtension(const char* name);
 bool hasExtension(VkPhysicalDevice physical, std::string_view name);
 
+/// What the validation layer has said, on any thread.
+struct MessageLog {
+    std::mutex mutex;
+    std::vector<std::string> lines;
+};
+
 /// A messenger that appends warnings and errors to `messages` and prints them to stderr.
-VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::vector<std::string>* messages);
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(MessageLog* messages);
 
 /// An instance with VK_EXT_debug_utils where there is one. `validate`: with the validation layer, which must be
 /// installed; `messages` then gets what it says while the instance is made.
 /// `surfaceExtensions`: those that a window's surface needs besides.
-VkInstance createInstance(bool validate, std::vector<std::string>* messages,
-                          std::span<const char* const> surfaceExtensions = {});
+VkInstance createInstance(bool validate, MessageLog* messages, std::span<const char* const> surfaceExtensions = {});
 std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance);
 /// `maxTexelBufferElements`: see DeviceDesc. Throws Failure::usage for a bad RELIEF_MAX_TEXEL_BUFFER_ELEMENTS.
 DeviceTraits readTraits(VkPhysicalDevice physical, std::optional<std::uint32_t> maxTexelBufferElements = {});

@@ -59,6 +59,8 @@ public:
     PendingPipeline() = default;
     /// Starts to make it.
     PendingPipeline(Device& device, std::function<Pipeline()> make);
+    /// One that is made already.
+    explicit PendingPipeline(Pipeline made);
     /// Waits for the pipeline, or makes it here where no thread has begun to. Throws what making it throws.
     const Pipeline& get() const;
 

@@ -210,13 +210,13 @@ bool Swapchain::show(const Texture& picture, VkExtent2D part, const std::functio
     const Slot& slot = slots_[nextSlot_];
     const VkFence fence = slot.isDone.get();
     checkVulkan(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    device_.submitUploads(); // before an image is acquired: it may throw
     std::uint32_t index = 0;
     const VkResult acquired =
         vkAcquireNextImageKHR(device_.handle(), chain_.get(), UINT64_MAX, slot.isFree.get(), VK_NULL_HANDLE, &index);
     if (acquired == VK_ERROR_OUT_OF_DATE_KHR) return false;
     if (acquired != VK_SUBOPTIMAL_KHR) checkVulkan(acquired, "vkAcquireNextImageKHR");
     const Shown& shown = images_[index];
-    device_.submitUploads();
 
     // The picture, what is drawn over it, and the layout that the window system reads.
     constexpr VkImageLayout drawn = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;

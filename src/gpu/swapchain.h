@@ -26,8 +26,8 @@ public:
     /// Scales the upper left part of `picture`, of that many texels, to the whole window, draws over it with `drawOver`
     /// within renderPass(), and shows the result. An equal size keeps every texel's codes.
     /// Returns while the device draws: what writes `picture` afterwards is a later submission with a barrier before it,
-    /// and what `drawOver` reads stays as it is until show() has returned twice more. Returns false where the window
-    /// has another size by now, so that nothing may have been shown.
+    /// and what `drawOver` reads stays as it is until show() has returned true twice more, or resize() has returned.
+    /// Returns false where the window has another size by now, so that nothing may have been shown.
     bool show(const Texture& picture, VkExtent2D part, const std::function<void(VkCommandBuffer)>& drawOver);
 
     [[nodiscard]] VkExtent2D extent() const { return extent_; }

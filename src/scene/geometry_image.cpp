@@ -38,7 +38,7 @@ SceneDesc withFittingMip(const SceneDesc& desc) {
     std::vector<dvec3> points;
     for (const vec3& p : image.positions) points.emplace_back(p);
     const View view = viewOf(makeCamera(desc, image.coordinates, points), desc.size.y);
-    // The mean length of the sides of quads on the screen.
+    // The mean length on the screen of the sides of quads along rows.
     double pixels = 0;
     const auto size = std::size_t(image.size);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {

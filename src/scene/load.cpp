@@ -74,7 +74,13 @@ void checkAllVectors(const ObjectDesc& desc) {
 }
 
 Cage readObjectCage(const ObjectDesc& desc, const Warn& warn) {
-    if (lowerExtension(desc.cage) == ".exr") return readGeometryImageCage(desc);
+    if (lowerExtension(desc.cage) == ".exr") {
+        if (desc.uvSet != 0)
+            fail(Failure::usage,
+                 "{}: --uv-set {} is of glTF files; a geometry image has one set of texture coordinates", desc.cage,
+                 desc.uvSet);
+        return readGeometryImageCage(desc);
+    }
     if (desc.mip) fail(Failure::usage, "{}: --mip is of geometry images (.exr)", desc.cage);
     if (desc.uvSet == 0) return readCage(desc.cage, warn);
     const std::string extension = lowerExtension(desc.cage);

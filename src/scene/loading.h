@@ -67,9 +67,10 @@ struct GltfLooks {
     std::vector<GltfMaterial> materials;
     bool isSplit = false; ///< the texture coordinates of material i were moved to the unit square (i,0)
 };
-/// Reads them; none for other files. Where materials have textures of their own and nothing but those textures is
-/// looked up by texture coordinates, moves the coordinates of each material into a unit square of its own. Materials
-/// are told apart by their names, and textures that repeat over their faces cannot be moved.
+/// Reads the materials of a glTF file; returns none for other files. Where materials have textures of their own and
+/// nothing but those textures is looked up by texture coordinates, moves the coordinates of each material into a unit
+/// square of its own. Materials are told apart by their names, and textures that repeat over their faces cannot be
+/// moved.
 GltfLooks readLooks(Cage& cage, const ObjectDesc& desc, const Warn& warn);
 
 /// Takes the base color and the normal map of the materials. Materials that are not split share one of each: others are

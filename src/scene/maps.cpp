@@ -135,6 +135,10 @@ void makeAllPerFace(std::vector<MapLayer>& layers, const ObjectDesc& desc, const
             fail(Failure::usage,
                  "{}: vectors cannot be added to a map per face; relief map makes that a map over texture coordinates",
                  layer.name);
+    if (desc.weld)
+        fail(Failure::usage, "{}: with --weld, a map per face cannot be added to other maps; weld the cage's file",
+             desc.cage);
+    // The others get nodes as fine as their texels, on the faces of the cage that the map per face is for.
     const Surface surface = buildSurface(cage, *options);
     const ReferenceSurface reference(cage, *options);
     const std::uint64_t topology = perFace->topology;

@@ -20,8 +20,8 @@ const GltfTexture* findShared(const std::vector<GltfMaterial>& materials, Textur
     const auto isSame = [&](const GltfMaterial& m) { return m.*member && (m.*member)->name == first.name; };
     if (std::ranges::all_of(materials, isSame)) return &first;
     warn(fmt::format(
-        "{}: its {} materials do not share it. relief draws textures of several materials where these have different "
-        "names, texture coordinates in 0..1, and no other map: it is ignored; name one with {}",
+        "{}: its {} materials do not share it, and it is ignored: textures of several materials are drawn where their "
+        "names differ, texture coordinates lie in 0..1 and no other map is asked for; name one with {}",
         first.name, materials.size(), option));
     return nullptr;
 }

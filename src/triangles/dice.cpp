@@ -34,7 +34,7 @@ struct Dicer::Parts {
     const DiceTable& tableOf(const SurfaceModel& model) {
         return tables.of(model, [&] { return makeDiceTable(device, model); });
     }
-    /// What the shaders of a model have in common; that of rates is missing.
+    /// The constants that all dicing shaders of a model share, without those that depend on rates.
     [[nodiscard]] ShaderConstants constantsFor(const SurfaceModel& model, const DiceOptions& options) const;
     void startPipelines(const SurfaceModel& model, ShaderConstants constants);
     /// Makes the buffers of the mesh and writes them.

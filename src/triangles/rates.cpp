@@ -20,8 +20,8 @@ constexpr const char* kFootprintShader = "footprints.comp";
 constexpr const char* kRateShader = "rates.comp";
 constexpr std::uint32_t kRateLimit = 1024; ///< of the paths that make their own triangles
 
-/// Of a segment, the length of a texel of the level that it reads, where fragments show all slopes. A coarser level
-/// would take from the positions what linear triangles could show; what aliases moves points, and bends no normal.
+/// Length of a texel of the mip level that is read, in segments, where fragments show all slopes. A coarser level would
+/// smooth positions that the triangles could show; aliasing moves points but bends no normal.
 constexpr float kBumpedSegmentShare = 0.25f;
 
 /// Most segments per edge of hardware tessellation: an even number.

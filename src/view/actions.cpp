@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/clock.h"
+#include "geometry_image/geometry_image.h"
 #include "view/keys.h"
 #include "view/viewer.h"
 
@@ -28,6 +29,15 @@ std::string freeName(const std::string& name, const std::string& extension) {
 std::uint64_t hostBytes() {
     const struct mallinfo2 info = mallinfo2();
     return info.uordblks + info.hblkhd;
+}
+
+/// False also for a file that cannot be read, which is an error once it is loaded.
+bool isGeometryImage(const std::string& path) {
+    try {
+        return isGeometryImageFile(path);
+    } catch (const Error&) {
+        return false;
+    }
 }
 
 template <typename Value, std::size_t kCount>
@@ -265,17 +275,21 @@ void Viewer::pressTriangleKey(int key) {
 
 // --- files ---------------------------------------------------------------------------------------------------------
 
-/// A mesh is the new cage, .hdr the environment, any other picture the height map.
+void Viewer::open(const std::string& cage) {
+    state_.look.scene.object.cage = cage;
+    frameObject();
+    changeObject();
+}
+
+/// A mesh or a geometry image is the new cage, .hdr the environment, any other picture the height map.
 void Viewer::drop(const std::string& path) {
     const std::string extension = lowerExtension(path);
     ObjectDesc& object = state_.look.scene.object;
     const auto isOneOf = [&](std::initializer_list<const char*> list) {
         return std::ranges::any_of(list, [&](const char* each) { return extension == each; });
     };
-    if (isOneOf({".obj", ".gltf", ".glb"})) {
-        object.cage = path;
-        frameObject();
-    } else if (extension == ".hdr") {
+    if (isOneOf({".obj", ".gltf", ".glb"}) || isGeometryImage(path)) return open(path);
+    if (extension == ".hdr") {
         state_.look.scene.lighting.environment = path;
     } else if (isOneOf({".exr", ".tif", ".tiff", ".png", ".jpg", ".jpeg"})) {
         object.height.path = path;
@@ -307,7 +321,7 @@ void Viewer::exportTurntable() {
     std::erase_if(words, [](const std::string& word) { return word.starts_with("--frames"); });
     for (const char* word : {"--turntable=72", "--quiet", "--progress=never", "-o"}) words.emplace_back(word);
     words.push_back(target);
-    export_.emplace(words);
+    export_.emplace(words, false);
     state_.notice = "writing " + target + " ...";
 }
 
@@ -317,14 +331,14 @@ void Viewer::startCheck() {
     std::vector<std::string> words = toCommandWords("check", desc_.given, desc_.look, shownLook());
     std::erase_if(words, [&](const std::string& word) {
         return word.starts_with("--") &&
-               std::ranges::find(desc_.checked, word.substr(0, word.find('='))) == desc_.checked.end();
+               std::ranges::find(desc_.checkOptions, word.substr(0, word.find('='))) == desc_.checkOptions.end();
     });
     std::erase_if(words, [](const std::string& word) { return word.starts_with("--time="); });
     if (scene_->isMoving())
         words.push_back(fmt::format("--time={}", state_.look.frame / state_.look.scene.object.motion.cache.fps));
     words.emplace_back("--progress=never");
-    check_.emplace(words);
-    state_.notice = "the certificate is made ...";
+    check_.emplace(words, true);
+    state_.notice = kMakingCertificate;
 }
 
 void Viewer::report() {
@@ -346,12 +360,11 @@ void Viewer::report() {
 
 void Viewer::obey(const PanelWishes& wishes) {
     if (wishes.changesPicture) changePicture();
-    if (wishes.changesObject) changeObject();
+    if (wishes.changesObject || wishes.reloads) changeObject();
     if (wishes.frames) frameObject();
-    if (wishes.reloads) changeObject();
     if (wishes.frontOf) look(*wishes.frontOf, 0);
     if (wishes.seeks) seek(*wishes.seeks);
-    if (!wishes.opens.empty()) drop(wishes.opens);
+    if (!wishes.opens.empty()) open(wishes.opens);
     if (wishes.copies) {
         window_.copyText(toShellLine(command()));
         state_.notice = "copied: " + toShellLine(command());
@@ -363,8 +376,9 @@ void Viewer::obey(const PanelWishes& wishes) {
     } catch (const Error& error) {
         state_.error = onOneLine(error.what());
     }
-    const bool isAny = wishes.changesPicture || wishes.changesObject || wishes.frames || wishes.copies ||
-                       wishes.shoots || wishes.exports || wishes.checks || wishes.frontOf || wishes.seeks;
+    const bool isAny = !wishes.opens.empty() || wishes.changesPicture || wishes.changesObject || wishes.frames ||
+                       wishes.copies || wishes.shoots || wishes.exports || wishes.checks || wishes.frontOf ||
+                       wishes.seeks;
     if (isAny) uiFrames_ = kFramesAfterEvent;
 }
 

@@ -188,7 +188,7 @@ void makeFiles(const ViewState& state, const ViewFacts& facts, PanelWishes& wish
     if (ImGui::Button("screenshot")) wishes.shoots = true;
     ImGui::SameLine();
     if (ImGui::Button("turntable")) wishes.exports = true;
-    explain("writes turntable.mp4: 72 frames of one turn, by relief animate");
+    explain("writes turntable-1.mp4 or the next free name: 72 frames of one turn, by relief animate");
     if (ImGui::Button("certificate")) wishes.checks = true;
     explain("what relief check finds of this surface and pose, in the background");
     ImGui::SameLine();
@@ -256,7 +256,7 @@ void makeHelp(const ViewState& state, const ivec2& size) {
     ImGui::End();
 }
 
-/// Its table has columns, which need letters of one width.
+/// Columns of the certificate align in a monospaced font only.
 void makeCertificate(ViewState& state, const ivec2& size) {
     if (state.certificate.empty()) return;
     ImGui::SetNextWindowPos({0.5f * float(size.x), 0.5f * float(size.y)}, ImGuiCond_Appearing, {0.5f, 0.5f});

@@ -44,8 +44,10 @@ struct ViewState {
     std::string error;               ///< of the latest files that could not be read
     std::string notice;              ///< what was done last, such as a screenshot
     std::string certificate;         ///< the latest one, until it is closed
-    std::vector<std::string> recent; ///< cages of before
+    std::vector<std::string> recent; ///< paths of cages shown before, the latest first
 };
+
+inline constexpr const char* kMakingCertificate = "making the certificate ...";
 
 /// What the panels report.
 struct ViewFacts {
@@ -65,7 +67,7 @@ struct PanelWishes {
     bool frames = false, copies = false, shoots = false, reloads = false, exports = false, checks = false;
     std::optional<double> frontOf; ///< azimuth of an axis view
     std::optional<int> seeks;      ///< frame of the time line
-    std::string opens;             ///< a cage
+    std::string opens;             ///< path of the cage to show, or empty
 };
 
 /// Makes all panels of one frame; `size`: of the window in pixels.

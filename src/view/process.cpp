@@ -2,6 +2,8 @@
 
 #include <filesystem>
 
+#include <csignal>
+
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -11,7 +13,9 @@ namespace relief {
 namespace {
 
 std::string makeFolder() {
-    std::string path = (std::filesystem::temp_directory_path() / "relief-XXXXXX").string();
+    std::error_code error;
+    std::string path = (std::filesystem::temp_directory_path(error) / "relief-XXXXXX").string();
+    if (error) fail(Failure::file, "there is no folder for temporary files: {}", error.message());
     if (mkdtemp(path.data()) == nullptr) fail(Failure::file, "{}: no folder can be made there", path);
     return path;
 }
@@ -20,7 +24,8 @@ std::string printedPath(const Temporary& folder) { return folder.path() + "/prin
 
 } // namespace
 
-Process::Process(std::vector<std::string> words) : folder_(std::make_unique<Temporary>(makeFolder)) {
+Process::Process(std::vector<std::string> words, bool endsWithThis)
+    : folder_(std::make_unique<Temporary>(makeFolder)), endsWithThis_(endsWithThis) {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -35,15 +40,25 @@ Process::Process(std::vector<std::string> words) : folder_(std::make_unique<Temp
     id_ = child;
 }
 
+Process::~Process() {
+    if (id_ > 0 && endsWithThis_) kill(id_, SIGTERM), waitpid(id_, nullptr, 0);
+}
+
 std::optional<int> Process::poll() {
     int status = 0;
-    if (waitpid(id_, &status, WNOHANG) != id_) return {};
+    const pid_t ended = waitpid(id_, &status, WNOHANG);
+    if (ended == 0) return {};
+    id_ = -1;
+    if (ended < 0) return 127; // where nobody keeps what has ended, such as with SIGCHLD ignored
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 std::string Process::output() const {
-    const std::string path = printedPath(*folder_);
-    return std::filesystem::exists(path) ? readFile(path) : "";
+    try {
+        return readFile(printedPath(*folder_));
+    } catch (const Error&) {
+        return ""; // it has not begun, or its file is gone
+    }
 }
 
 } // namespace relief

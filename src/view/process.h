@@ -1,4 +1,4 @@
-// Internal: this program once more, with other words, while the window goes on.
+// Internal: runs this program as a child process.
 #pragma once
 
 #include <memory>
@@ -13,8 +13,12 @@ namespace relief {
 /// A process that this program started. What it prints is kept; its errors go where this program's go.
 class Process {
 public:
-    /// `words`: its arguments, beginning with a name. Throws Failure::device where no process can be started.
-    explicit Process(std::vector<std::string> words);
+    /// `words`: its arguments, beginning with a name. `endsWithThis`: it is ended where this object ends first; else it
+    /// goes on. Throws Failure::device where no process can be started, Failure::file where its output has no place.
+    Process(std::vector<std::string> words, bool endsWithThis);
+    ~Process();
+    Process(const Process&) = delete;
+    Process& operator=(const Process&) = delete;
 
     /// Its exit code once it has ended, 128 and more after a signal; nothing before.
     std::optional<int> poll();
@@ -23,7 +27,8 @@ public:
 
 private:
     std::unique_ptr<Temporary> folder_;
-    int id_ = -1;
+    int id_ = -1; ///< -1: it has ended
+    bool endsWithThis_;
 };
 
 } // namespace relief

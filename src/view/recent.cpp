@@ -39,6 +39,7 @@ void addRecent(const std::string& path) {
     const std::string whole = std::filesystem::absolute(path, error).lexically_normal().string();
     if (error || listPath().empty() || whole.find('\n') != whole.npos) return;
     std::vector<std::string> paths = readRecent();
+    if (!paths.empty() && paths.front() == whole) return;
     std::erase(paths, whole);
     paths.insert(paths.begin(), whole);
     if (paths.size() > kMostRecent) paths.resize(kMostRecent);

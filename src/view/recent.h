@@ -10,7 +10,7 @@ namespace relief {
 /// cacheFolder(): without one, or where it cannot be read, there are none.
 std::vector<std::string> readRecent();
 
-/// Puts a cage in front of the others, of which eight are kept. A list that cannot be written is none.
+/// Puts a cage in front of the others, of which eight are kept. Does nothing where the list cannot be written.
 void addRecent(const std::string& path);
 
 } // namespace relief

@@ -47,14 +47,14 @@ struct ViewDesc {
     std::function<RenderOptions(const Look&, const LoadedObject&, const Device&)> makeOptions;
     /// The frames of what moves; null where that is a height function alone.
     std::function<std::vector<int>(const Animation*)> listFrames;
-    bool hasFrames = false;           ///< they are named, so that a height function moves, too
-    std::vector<GivenOption> given;   ///< what `look` was made of, without what is the window's own
-    std::vector<std::string> checked; ///< options that `relief check` takes, with their dashes
-    bool playsAtOnce = false;         ///< the time line runs from the start
-    std::optional<int> quitAfter;     ///< closes after so many frames, which are drawn without waiting for events
-    std::string screenshot;           ///< file that the first picture at rest is written to, or empty
-    std::string record;               ///< file that events are written to, or empty
-    std::string play;                 ///< file of events that are played before those of the user, or empty
+    bool hasFrames = false;                ///< they are named, so that a height function moves, too
+    std::vector<GivenOption> given;        ///< what `look` was made of, without what is the window's own
+    std::vector<std::string> checkOptions; ///< options that `relief check` takes, with their dashes
+    bool playsAtOnce = false;              ///< the time line runs from the start
+    std::optional<int> quitAfter;          ///< closes after so many frames, which are drawn without waiting for events
+    std::string screenshot;                ///< file that the first picture at rest is written to, or empty
+    std::string record;                    ///< file that events are written to, or empty
+    std::string play;                      ///< file of events that are played before those of the user, or empty
     std::function<void(const std::string&)> report; ///< takes a line of JSON per `report` of a played file
 };
 

@@ -158,7 +158,7 @@ void Viewer::watchFiles(double now) {
     if (watch_.hasChanged()) changeObject();
 }
 
-/// What was started on the side and has ended.
+/// Polls the child processes and shows the results of those that have ended.
 void Viewer::watchProcesses() {
     if (const std::optional<int> code = export_ ? export_->poll() : std::nullopt) {
         export_.reset();
@@ -168,7 +168,7 @@ void Viewer::watchProcesses() {
     if (const std::optional<int> code = check_ ? check_->poll() : std::nullopt) {
         const std::string text = check_->output();
         check_.reset();
-        state_.notice.clear();
+        if (state_.notice == kMakingCertificate) state_.notice.clear();
         state_.certificate = text;
         if (text.empty()) state_.error = fmt::format("relief check ended with exit code {} and no certificate", *code);
         uiFrames_ = kFramesAfterEvent;

@@ -50,6 +50,7 @@ private:
     void pressKey(int key);
     void pressViewKey(int key);
     void pressTriangleKey(int key);
+    void open(const std::string& cage);
     void drop(const std::string& path);
     void obey(const PanelWishes& wishes);
     void seek(int frame);

@@ -45,6 +45,35 @@ TEST_F(TileVerbs, drawSetsAndMapsPerFace) {
     EXPECT_TRUE(contains(tiles.out, "1002")) << tiles.out;
 }
 
+// The heights stay where they are on the surface while the device moves the cage.
+TEST_F(TileVerbs, keepTheirPromisesWhileTheCageMoves) {
+    const std::string cage = plane();
+    writeImage(folder / "h.1001.exr", sineImage(32, 3), SampleType::real);
+    writeImage(folder / "h.1002.exr", sineImage(16, 2), SampleType::real);
+    expectDone(relief({"map", cage, folder / "h.<UDIM>.exr", "-o", folder / "f.exr", "-q"}));
+    for (const char* map : {"h.<UDIM>.exr", "f.exr"}) {
+        const Words motion{"--height", folder / map, "--deform", "twist(angle=60*t) wave(amplitude=0.1*t)"};
+        Words words{"check", cage, "--time", "0.7", "--json", "-q"};
+        words.insert(words.end(), motion.begin(), motion.end());
+        const nlohmann::json certificate = jsonOf(relief(words, "--scale 0.1 --rate 3 --path dice --points 500"));
+        EXPECT_EQ(certificate.at("paths").at(0).at("open_edges"), 0) << map;
+        // The device poses the cage of `animate`, the host that of `render`.
+        Words still{"render", cage, "--time", "0.5", "-o", folder / "still.png"};
+        Words moving{"animate", cage, "--frames", "12", "-o", folder / "f.{frame}.png"};
+        for (Words* each : {&still, &moving}) each->insert(each->end(), motion.begin(), motion.end());
+        // Both by one rasterizer: they know different bounds of what moves, by which one is chosen.
+        const std::string view =
+            "--scale 0.1 --rate 6 --size 64,64 --distance 12 --look-at 2,0,-1 --show height --raster hardware -q";
+        expectDone(relief(still, view));
+        expectDone(relief(moving, view));
+        const std::vector<float> a = readImage(folder / "still.png").texels, b = readImage(folder / "f.12.png").texels;
+        ASSERT_EQ(a.size(), b.size());
+        std::size_t differentCount = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) differentCount += std::abs(a[i] - b[i]) > 3.0f / 255;
+        EXPECT_LE(differentCount, a.size() / 200) << map;
+    }
+}
+
 TEST_F(TileVerbs, sayWhichTileIsMissing) {
     write("h.1001.exr", 0.1f);
     const Outcome drawn =

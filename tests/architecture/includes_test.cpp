@@ -100,12 +100,13 @@ TEST(Architecture, theTableOfModulesInTheReadmeIsThatOfCMake) {
 
 // --- sizes --------------------------------------------------------------------------------------------------------
 
-// A header that is longer is two topics, and so is a source.
+// A header that is longer is two topics, and so is a source. The design document has many.
 TEST(Architecture, filesAreShort) {
     std::map<std::string, int> counts;
     for (const char* folder : {"src", "shaders"})
         for (const Line& line : linesBelow(kProject, folder)) counts[line.file] = line.number;
     ASSERT_GT(counts.size(), 150u);
+    std::erase_if(counts, [](const auto& entry) { return entry.first.ends_with(".md"); });
     for (const auto& [file, count] : counts)
         EXPECT_LE(count, file.ends_with(".h") ? 250 : 400) << file << " has " << count << " lines";
 }

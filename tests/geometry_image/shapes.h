@@ -61,6 +61,21 @@ inline DenseMesh sphereMesh(std::uint32_t n, const dvec3& scale = dvec3(1)) {
     return mesh;
 }
 
+/// A sphere with a hole that is much smaller than its triangles.
+inline DenseMesh piercedSphere(std::uint32_t n) {
+    DenseMesh mesh = sphereMesh(n);
+    const std::size_t hole = 3 * (n * n + n);
+    dvec3 middle(0);
+    for (std::size_t k = 0; k < 3; ++k) middle += dvec3(mesh.positions[mesh.indices[hole + k]]) / 3.0;
+    const std::vector<vec3> before = mesh.positions;
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t v = 0; v < before.size(); ++v) // vertices at one position are one
+            if (before[v] == before[mesh.indices[hole + k]])
+                mesh.positions[v] = vec3(glm::mix(dvec3(before[v]), middle, 0.9));
+    mesh.indices.erase(mesh.indices.begin() + std::ptrdiff_t(hole), mesh.indices.begin() + std::ptrdiff_t(hole) + 3);
+    return mesh;
+}
+
 inline DenseMesh torusMesh(std::uint32_t n) {
     return gridMesh(
         n, n / 2,
