@@ -69,7 +69,7 @@ std::vector<Shape> listShapes() {
             {"tetrahedron", tetrahedron, 0, 0, 2, 2e-3, 4, 1.5},
             {"sphere", sphereMesh(16), 0, 0, 1.4, 5e-4, 4, 7},
             {"cigar", sphereMesh(16, dvec3(6, 1, 1)), 0, 0, 1.4, 5e-4, 4, 14},
-            {"pierced sphere", piercedSphere(16), 0, 1, 3, 2e-3, 3, 9},
+            {"pierced sphere", piercedSphere(32), 0, 1, 3, 2e-3, 4, 9},
             {"torus", torusMesh(48), 1, 0, 1.7, 6e-4, 4, 7},
             {"double torus", doubleTorus(), 2, 0, 2, 1e-3, 2, 110}};
 }

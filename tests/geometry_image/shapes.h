@@ -61,18 +61,21 @@ inline DenseMesh sphereMesh(std::uint32_t n, const dvec3& scale = dvec3(1)) {
     return mesh;
 }
 
-/// A sphere with a hole that is much smaller than its triangles.
+/// A sphere with a small round hole at its north pole; n quads around.
 inline DenseMesh piercedSphere(std::uint32_t n) {
-    DenseMesh mesh = sphereMesh(n);
-    const std::size_t hole = 3 * (n * n + n);
-    dvec3 middle(0);
-    for (std::size_t k = 0; k < 3; ++k) middle += dvec3(mesh.positions[mesh.indices[hole + k]]) / 3.0;
-    const std::vector<vec3> before = mesh.positions;
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t v = 0; v < before.size(); ++v) // vertices at one position are one
-            if (before[v] == before[mesh.indices[hole + k]])
-                mesh.positions[v] = vec3(glm::mix(dvec3(before[v]), middle, 0.9));
-    mesh.indices.erase(mesh.indices.begin() + std::ptrdiff_t(hole), mesh.indices.begin() + std::ptrdiff_t(hole) + 3);
+    DenseMesh mesh = gridMesh(
+        n, n / 2,
+        [n](double s, double t) {
+            const double around = 2 * std::numbers::pi * s, first = 0.05;
+            const double down = first + (std::numbers::pi - first) * t * (n / 2) / (n / 2 + 1);
+            return dvec3(std::sin(down) * std::sin(around), std::sin(down) * std::cos(around), std::cos(down));
+        },
+        true);
+    // The last row ends at the south pole.
+    const auto last = std::uint32_t(mesh.positions.size());
+    mesh.positions.emplace_back(0, 0, -1);
+    for (std::uint32_t i = 0; i < n; ++i)
+        mesh.indices.insert(mesh.indices.end(), {last - n + i, last - n + (i + 1) % n, last});
     return mesh;
 }
 
