@@ -48,6 +48,11 @@ Viewer::Viewer(const ViewDesc& desc, const Warn& warn)
     fitToWindow();
 }
 
+/// The last frame may still be drawn, and reads what ends with the window.
+Viewer::~Viewer() {
+    if (device_) vkDeviceWaitIdle(device_->handle());
+}
+
 bool Viewer::isDone() const {
     return isClosed_ || window_.isClosing() ||
            (desc_.quitAfter && report_.frameCount >= std::uint64_t(*desc_.quitAfter));

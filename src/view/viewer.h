@@ -21,6 +21,9 @@ inline constexpr int kFramesAfterEvent = 3;
 class Viewer {
 public:
     Viewer(const ViewDesc& desc, const Warn& warn);
+    ~Viewer();
+    Viewer(const Viewer&) = delete;
+    Viewer& operator=(const Viewer&) = delete;
     ViewReport run();
 
 private:
