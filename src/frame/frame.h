@@ -109,7 +109,7 @@ struct RenderOptions : TriangleOptions {
     double unit = 1; ///< cage units per unit of the model: layers hold depths and heights in cage units
     std::optional<Camera> rateCamera;   ///< what rates are measured from, for looking at them from elsewhere
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
-    bool countsPipeline = false;
+    bool countsPipeline = false;        ///< of pictures that the fixed function draws
     std::optional<std::uint32_t> meshTrianglesInFlight; ///< see DeviceTraits; default what suits the device
 };
 

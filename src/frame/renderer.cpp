@@ -287,9 +287,9 @@ void Renderer::Parts::record(VkCommandBuffer commands, Frame& frame) {
     timer.stamp(commands);
     if (frame.castsShadows()) shadowPass(commands, frame);
     timer.stamp(commands);
-    if (frame.options.countsPipeline) counter.begin(commands);
+    if (frame.countsPipeline()) counter.begin(commands);
     surfacePass(commands, frame);
-    if (frame.options.countsPipeline) counter.end(commands);
+    if (frame.countsPipeline()) counter.end(commands);
     timer.stamp(commands);
     if (frame.hasOcclusion()) {
         occlusionPass(commands, frame);
@@ -312,7 +312,7 @@ Picture Renderer::Parts::read(Frame& frame) {
         if (frame.hasOcclusion()) frame.stats.occlusionMs = times[2];
         if (!frame.otherLights().empty()) frame.stats.otherLightsMs = times[others];
     }
-    if (frame.options.countsPipeline) frame.stats.pipeline = counter.counts();
+    if (frame.countsPipeline()) frame.stats.pipeline = counter.counts();
     const auto* halves = static_cast<const std::uint16_t*>(this->picture.mapped);
     Picture picture;
     picture.width = desc.width;

@@ -119,6 +119,8 @@ struct Renderer::Parts {
         [[nodiscard]] bool castsShadows() const {
             return options.lighting.castsShadows && technique.isLit && shading != kShadingMatcap;
         }
+        /// Of draws alone: Mesa's CPU driver ends the process where dispatches are counted between draws.
+        [[nodiscard]] bool countsPipeline() const { return options.countsPipeline && raster == Raster::hardware; }
     };
 
     // What a frame is made of, in this order.

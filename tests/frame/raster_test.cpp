@@ -308,6 +308,17 @@ TEST_F(Raster, isAsNearToALargePictureAsTheFixedFunction) {
         compare(scene().model, show, name);
 }
 
+// Mesa's CPU driver ended the process where dispatches were counted and draws followed.
+TEST_F(Raster, isNotCountedAsDraws) {
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
+    options.countsPipeline = true;
+    options.lighting.castsShadows = false;
+    EXPECT_EQ(rasterRenderer().render(scene().plain, options).stats.pipeline.fragmentCalls, 0u);
+    options.raster = relief::Raster::hardware;
+    options.lighting.castsShadows = true;
+    EXPECT_GT(rasterRenderer().render(scene().plain, options).stats.pipeline.fragmentCalls, 0u);
+}
+
 TEST_F(Raster, castsTheShadowsOfTheFixedFunction) {
     RenderOptions options = sceneOptions(scene().cage, relief::Raster::hardware);
     options.lighting.keyElevation = 15;
