@@ -143,8 +143,10 @@ ClosestPoints::ClosestPoints(std::vector<vec3> positions, std::vector<std::uint3
     // Errors of building show only here.
     rtcCommitScene(scene_.get());
     if (const RTCError error = rtcGetDeviceError(device_.get()); error != RTC_ERROR_NONE)
-        fail(error == RTC_ERROR_OUT_OF_MEMORY ? Failure::device : Failure::internal,
-             "Embree builds no tree of {} triangles: error {}", indices_.size() / 3, int(error));
+        error == RTC_ERROR_OUT_OF_MEMORY
+            ? fail(Failure::device, "there is too little memory for a tree of {} triangles", indices_.size() / 3)
+            : fail(Failure::internal, "Embree builds no tree of {} triangles: error {}", indices_.size() / 3,
+                   int(error));
 }
 
 std::optional<LineHit> ClosestPoints::nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,

@@ -96,6 +96,7 @@ std::string describeSpot(const MapCase& map, const SurfaceLocation& at) {
 
 void examineFlips(const MapCase& map, const SeamReport& seams, std::span<const std::uint32_t> coverage,
                   Findings& findings) {
+    if (!map.subject.layout->hasTexCoords) return; // faces take the whole map: there is nothing to flip
     const bool hasSeamFault = disagree(seams, map.map);
     const std::optional<float> background = findBackground(map.sorted);
     const double outside = background ? shareOutside(map.map, coverage, *background) : 0;
