@@ -36,6 +36,7 @@ HeightMap toFaceMap(const HeightMap& map, const MapPlacement& placement, const S
                     const ReferenceSurface& reference, std::optional<int> segments) {
     const dvec2 texels = dvec2(map.width, map.height) * glm::abs(placement.repeat);
     std::vector<ivec2> perFace;
+    perFace.reserve(surface.faces.size());
     for (int face = 0; face < int(surface.faces.size()); ++face)
         perFace.push_back(reference.isHole(face) ? ivec2(0)
                           : segments             ? ivec2(int(std::lround(std::log2(*segments))))

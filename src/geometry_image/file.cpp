@@ -171,6 +171,7 @@ void writeGeometryImage(const std::string& path, const GeometryImage& image, Sam
     if (!coordinates.isIdentity())
         attributes[kOriginAttribute] = fmt::format("{} {} {} {}", origin.x, origin.y, origin.z, coordinates.unit);
     std::vector<ImageChannel> channels;
+    channels.reserve(std::size(kChannels));
     for (const char* name : kChannels) channels.push_back({name, sample});
     writeImage(path, picture, channels, attributes);
 }

@@ -92,6 +92,7 @@ void smoothPaths(CutMesh& mesh) {
         if (paths[p].mate <= p) continue;
         const std::vector<std::uint32_t>& edges = paths[p].halfEdges;
         std::vector<std::vector<std::uint32_t>> stars;
+        stars.reserve(edges.size());
         for (const std::uint32_t h : edges) stars.push_back(listStar(mesh, h));
         for (int sweep = 0; sweep < kSweeps; ++sweep)
             for (std::size_t i = 1; i < edges.size(); ++i) {

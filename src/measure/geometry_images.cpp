@@ -9,7 +9,7 @@ namespace relief {
 GeometryImageStudy::GeometryImageStudy(CompressionStudy& study, double triangleCount, int largestSize) : study_(study) {
     // Every method starts from the same surface; this one from a mesh of it that is spread in some seconds.
     Compression compression = study.uncompressed();
-    const double perRate = double(study.reference().indices.size() / 3) / std::pow(study.referenceRate(), 2);
+    const double perRate = double(study.reference().indices.size()) / 3 / std::pow(study.referenceRate(), 2);
     compression.rate = std::max(1, int(std::sqrt(triangleCount / perRate)));
     try {
         surface_.emplace(study.makeMesh(compression), study.scene().name, GeometryImageOptions{.size = largestSize});

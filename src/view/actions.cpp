@@ -20,7 +20,7 @@ constexpr double kZoomPerStep = 0.9, kRatePerKey = 1.25;
 /// The first of name-1.png, name-2.png, ... that does not exist.
 std::string freeName(const std::string& name, const std::string& extension) {
     for (int i = 1;; ++i) {
-        const std::string path = fmt::format("{}-{}{}", name, i, extension);
+        std::string path = fmt::format("{}-{}{}", name, i, extension);
         if (!std::filesystem::exists(path)) return path;
     }
 }

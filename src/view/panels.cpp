@@ -6,7 +6,9 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "view/events.h"
 #include "view/keys.h"
+#include "view/orbit.h"
 
 namespace relief {
 namespace {

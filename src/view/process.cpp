@@ -27,6 +27,7 @@ std::string printedPath(const Temporary& folder) { return folder.path() + "/prin
 Process::Process(std::vector<std::string> words, bool endsWithThis)
     : folder_(std::make_unique<Temporary>(makeFolder)), endsWithThis_(endsWithThis) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t files;
