@@ -25,6 +25,7 @@ std::vector<double> steadyTimes(const Animation* animation) {
     dvec2 range = animation != nullptr ? animation->keyRange() : dvec2(0);
     if (!(range.y > range.x) || !std::isfinite(range.y - range.x)) range = {0, 10};
     std::vector<double> times;
+    times.reserve(kCount);
     for (int i = 0; i < kCount; ++i) times.push_back(glm::mix(range.x, range.y, double(i) / (kCount - 1)));
     return times;
 }
