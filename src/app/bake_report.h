@@ -34,7 +34,7 @@ struct BakeReport {
 
 /// One line about a distance. `unit`: cage units per unit of the distance; `diagonal`: cage units.
 std::string describeDistance(const char* name, const SampledDistance& distance, double unit, double diagonal);
-/// The same as JSON, in cage units and percent of the diagonal.
+/// Returns a sampled distance as JSON, in cage units and percent of the diagonal.
 nlohmann::json distanceToJson(const SampledDistance& distance, double unit, double diagonal);
 
 std::string toText(const BakeReport& report);

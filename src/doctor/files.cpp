@@ -16,7 +16,7 @@ HeightCensus takeCensus(const std::string& path, const ImageInfo& info, const He
     return census;
 }
 
-/// The same finding of several tiles: the first one of them, and how many there are.
+/// A finding that several tiles share: that of the first tile, and the number of tiles.
 struct SharedFinding {
     Finding first;
     std::string tile;

@@ -1,5 +1,6 @@
 // Geometry images as meshes: the grid's triangles, with one vertex for the samples that are sewn.
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "geometry_image/grid.h"
@@ -109,18 +110,21 @@ public:
         std::vector<std::uint32_t> corners;
         corners.reserve(6 * falls_.size());
         for (std::size_t quad = 0; quad < falls_.size(); ++quad) {
-            const auto topLeft = std::uint32_t(quad / (size_ - 1) * size_ + quad % (size_ - 1));
-            const std::uint32_t topRight = topLeft + 1, bottomLeft = topLeft + std::uint32_t(size_),
-                                bottomRight = bottomLeft + 1;
-            if (falls_[quad] != 0)
-                corners.insert(corners.end(), {topLeft, bottomLeft, bottomRight, topLeft, bottomRight, topRight});
-            else
-                corners.insert(corners.end(), {bottomLeft, bottomRight, topRight, bottomLeft, topRight, topLeft});
+            const std::array<std::uint32_t, 6> own = cornersOf(quad);
+            corners.insert(corners.end(), own.begin(), own.end());
         }
         return corners;
     }
 
 private:
+    /// The samples at the corners of the two triangles of a quad.
+    [[nodiscard]] std::array<std::uint32_t, 6> cornersOf(std::size_t quad) const {
+        const auto topLeft = std::uint32_t(quad / (size_ - 1) * size_ + quad % (size_ - 1));
+        const std::uint32_t topRight = topLeft + 1, bottomLeft = topLeft + std::uint32_t(size_),
+                            bottomRight = bottomLeft + 1;
+        if (falls_[quad] != 0) return {topLeft, bottomLeft, bottomRight, topLeft, bottomRight, topRight};
+        return {bottomLeft, bottomRight, topRight, bottomLeft, topRight, topLeft};
+    }
     [[nodiscard]] bool isAtBorder(std::size_t quad) const {
         const std::size_t n = size_ - 1, i = quad % n, j = quad / n;
         return i == 0 || j == 0 || i + 1 == n || j + 1 == n;
@@ -134,11 +138,12 @@ private:
     [[nodiscard]] std::vector<std::uint64_t> listDoubles() const {
         // Those of the quads at the border: others cannot be double.
         std::vector<std::uint64_t> edges, doubles;
-        const std::vector<std::uint32_t> corners = listCorners();
-        for (std::size_t h = 0; h < corners.size(); ++h) {
-            if (!isAtBorder(h / 6)) continue;
-            const std::uint32_t from = grid_.vertices[corners[h]];
-            edges.push_back(keyOfEdge(from, grid_.vertices[corners[h % 3 == 2 ? h - 2 : h + 1]]));
+        for (std::size_t quad = 0; quad < falls_.size(); ++quad) {
+            if (!isAtBorder(quad)) continue;
+            const std::array<std::uint32_t, 6> corners = cornersOf(quad);
+            for (std::size_t h = 0; h < corners.size(); ++h)
+                edges.push_back(
+                    keyOfEdge(grid_.vertices[corners[h]], grid_.vertices[corners[h % 3 == 2 ? h - 2 : h + 1]]));
         }
         std::ranges::sort(edges);
         for (std::size_t i = 1; i < edges.size(); ++i) {

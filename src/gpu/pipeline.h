@@ -69,7 +69,7 @@ private:
     std::shared_ptr<State> state_;
 };
 
-/// As makeGraphics and makeCompute; the code of the stages must live until the pipeline is made.
+/// Starts to make what makeGraphics and makeCompute make. The code of the stages must live until the pipeline is made.
 PendingPipeline startGraphics(Device& device, GraphicsDesc desc);
 PendingPipeline startCompute(Device& device, ComputeDesc desc);
 

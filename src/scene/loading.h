@@ -69,7 +69,7 @@ struct GltfLooks {
 };
 /// Reads the materials of a glTF file; returns none for other files. Where materials have textures of their own and
 /// nothing but those textures is looked up by texture coordinates, moves the coordinates of each material into a unit
-/// square of its own. Materials are told apart by their names, and textures that repeat over their faces cannot be
+/// square of its own. Materials are distinguished by their names, and textures that repeat over their faces cannot be
 /// moved.
 GltfLooks readLooks(Cage& cage, const ObjectDesc& desc, const Warn& warn);
 

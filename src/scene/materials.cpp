@@ -111,7 +111,7 @@ bool differ(const std::vector<GltfMaterial>& materials) {
                                [&](const GltfMaterial& m) { return usesOf(m) != usesOf(materials.front()); });
 }
 
-/// The material of each part of a cage, by its name. Empty where names do not tell.
+/// Returns the material of each part of a cage, found by its name; empty where a name is not that of exactly one.
 std::vector<std::size_t> findMaterials(const Cage& cage, const std::vector<GltfMaterial>& materials) {
     std::vector<std::size_t> found;
     for (const CagePart& part : cage.parts) {

@@ -123,31 +123,40 @@ TEST_F(ShadingOnDevice, aWhiteFurnaceIsFlat) {
     EXPECT_GT(usual.at(kSide / 2, kSide / 2)[0], 1.03f);
 }
 
+/// Calls take(x, y, mirrored) for each pixel that shows the unit ball around the origin, but the outermost, which see
+/// all of the horizon: `mirrored` is where the ball
+/// mirrors the ray through the pixel's centre to.
+void forEachMirrored(const Camera& camera, const Image& image,
+                     const std::function<void(int, int, const dvec3&)>& take) {
+    const dvec3 back = glm::normalize(camera.eye), right = glm::normalize(glm::cross(dvec3(0, 1, 0), back)),
+                up = glm::cross(back, right);
+    const double tangent = std::tan(glm::radians(camera.fieldOfView) / 2), distance = glm::length(camera.eye);
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) {
+            const dvec3 ray = glm::normalize(((2 * x + 1.0) / kSide - 1) * tangent * right -
+                                             ((2 * y + 1.0) / kSide - 1) * tangent * up - back);
+            const double b = glm::dot(ray, camera.eye), root = b * b - distance * distance + 1;
+            if (root < 0.05 || !isCovered(image, x, y)) continue;
+            const dvec3 n = camera.eye + (-b - std::sqrt(root)) * ray;
+            take(x, y, ray - 2 * glm::dot(ray, n) * n);
+        }
+}
+
 // Directions of reflected rays in double precision, of a sphere without triangles.
 TEST_F(ShadingOnDevice, aMirrorShowsTheEnvironment) {
     BallScene scene(192);
     const GpuEnvironment smooth = uploadEnvironment(device(), makeEnvironment(equirectOf(256, smoothLight), true));
     scene.options.lighting.environment = &smooth;
     const Image image = scene.drawDark({.albedo = vec3(1), .roughness = 0, .metallic = 1.0f});
-    const Camera& camera = scene.options.camera;
-    const dvec3 back = glm::normalize(camera.eye), right = glm::normalize(glm::cross(dvec3(0, 1, 0), back)),
-                up = glm::cross(back, right);
-    const double tangent = std::tan(glm::radians(camera.fieldOfView) / 2), distance = glm::length(camera.eye);
     double sum = 0, largest = 0;
     int count = 0;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const dvec3 ray = glm::normalize(((2 * x + 1.0) / kSide - 1) * tangent * right -
-                                             ((2 * y + 1.0) / kSide - 1) * tangent * up - back);
-            const double b = glm::dot(ray, camera.eye), root = b * b - distance * distance + 1;
-            if (root < 0.05 || !isCovered(image, x, y)) continue; // the outermost pixels see all of the horizon
-            const dvec3 n = camera.eye + (-b - std::sqrt(root)) * ray;
-            const dvec3 expected = smoothLight(ray - 2 * glm::dot(ray, n) * n);
-            for (int c = 0; c < 3; ++c) {
-                const double error = std::abs(image.at(x, y)[c] - expected[c]);
-                sum += error, ++count, largest = std::max(largest, error);
-            }
+    forEachMirrored(scene.options.camera, image, [&](int x, int y, const dvec3& mirrored) {
+        const dvec3 expected = smoothLight(mirrored);
+        for (int c = 0; c < 3; ++c) {
+            const double error = std::abs(image.at(x, y)[c] - expected[c]);
+            sum += error, ++count, largest = std::max(largest, error);
         }
+    });
     EXPECT_GT(count, 3 * 10'000);
     EXPECT_LT(sum / count, 0.002);
     EXPECT_LT(largest, 0.03);
@@ -174,28 +183,18 @@ TEST_F(ShadingOnDevice, aMirrorShowsCapturedSurroundings) {
     scene.options.lighting.environment = &environment;
     const Image image = scene.drawDark({.albedo = vec3(1), .roughness = 0, .metallic = 1.0f});
 
-    const Camera& camera = scene.options.camera;
-    const dvec3 back = glm::normalize(camera.eye), right = glm::normalize(glm::cross(dvec3(0, 1, 0), back)),
-                up = glm::cross(back, right);
-    const double tangent = std::tan(glm::radians(camera.fieldOfView) / 2), distance = glm::length(camera.eye);
     int count = 0, blacks = 0, wrong = 0;
     double sum = 0;
-    for (int y = 0; y < kSide; ++y)
-        for (int x = 0; x < kSide; ++x) {
-            const dvec3 ray = glm::normalize(((2 * x + 1.0) / kSide - 1) * tangent * right -
-                                             ((2 * y + 1.0) / kSide - 1) * tangent * up - back);
-            const double b = glm::dot(ray, camera.eye), root = b * b - distance * distance + 1;
-            if (root < 0.05 || !isCovered(image, x, y)) continue;
-            const dvec3 n = camera.eye + (-b - std::sqrt(root)) * ray, mirrored = ray - 2 * glm::dot(ray, n) * n;
-            // Environments are far away: what a direction shows is what is seen along it from the middle.
-            const double along = glm::dot(mirrored, beside), off = glm::length(beside - along * mirrored);
-            const bool isBlack = along > 0 && off < 1;
-            if (along > 0 && std::abs(off - 1) < 0.15) continue; // outlines are blurred by the pixel's footprint
-            const dvec3 expected = isBlack ? dvec3(0) : smoothLight(mirrored);
-            double error = 0;
-            for (int c = 0; c < 3; ++c) error = std::max(error, std::abs(image.at(x, y)[c] - expected[c]));
-            ++count, blacks += isBlack, wrong += error > 0.03, sum += error;
-        }
+    forEachMirrored(scene.options.camera, image, [&](int x, int y, const dvec3& mirrored) {
+        // Environments are far away: what a direction shows is what is seen along it from the middle.
+        const double along = glm::dot(mirrored, beside), off = glm::length(beside - along * mirrored);
+        const bool isBlack = along > 0 && off < 1;
+        if (along > 0 && std::abs(off - 1) < 0.15) return; // outlines are blurred by the pixel's footprint
+        const dvec3 expected = isBlack ? dvec3(0) : smoothLight(mirrored);
+        double error = 0;
+        for (int c = 0; c < 3; ++c) error = std::max(error, std::abs(image.at(x, y)[c] - expected[c]));
+        ++count, blacks += isBlack, wrong += error > 0.03, sum += error;
+    });
     EXPECT_GT(count, 8000);
     EXPECT_GT(blacks, 50);
     EXPECT_LE(wrong, count / 100);
