@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "inputs.glsl"
 
-// One face of a diced mesh, for layers.
+// One face of a diced mesh, whose fragments know where in it they lie.
 layout(push_constant, scalar) uniform PushBlock { DicedFacePush push; };
 #define RELIEF_DICED_FACE push
 #include "diced_points.glsl"
@@ -15,6 +15,7 @@ RELIEF_TABLE(kBindMeshTexCoords, vec2, meshTexCoords)
 #include "mesh_gradients.glsl"
 
 layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
+layout(constant_id = kIdWantsTexCoords) const bool kWantsTexCoords = false;
 
 void main() {
     uint vertex = uint(gl_VertexIndex);
@@ -23,7 +24,7 @@ void main() {
     gl_Position = clip;
     vNormal = worldNormal(meshAt(2u * vertex + 1u).xyz);
     vec2 uv = dicedPoint(vertex);
-    vTexCoord = vec4(kHasTexCoords ? meshTexCoords(vertex) : uv, uv);
+    vTexCoord = vec4(kHasTexCoords && kWantsTexCoords ? meshTexCoords(vertex) : uv, uv);
     vHeight = at.w;
     readGradients(vertex);
     vFace = push.face;

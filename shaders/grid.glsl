@@ -37,7 +37,9 @@ void main() {
     if (side < 4u) {
         uint entry = fetchFace(face).sides[side];
         SideRate rate = sideRate(entry);
-        location = sideLocation(entry, snap(k, count, rate.segments), rate);
+        uint sample_ = snap(k, count, rate.segments);
+        location = sideLocation(entry, sample_, rate);
+        if (kPass == kPassLayers) uv = sidePoint(side, sampleAlongSide(entry, sample_, rate));
     }
     vec4 captured = emitVertex(face, uv, location, max(n, m));
 #ifdef RELIEF_CAPTURES_STORED

@@ -97,6 +97,14 @@ SideRate sideRate(uint sideEntry) {
     return SideRate(halves * segmentsOf(rate, inputs.rates.isFractional), float(halves) * rate);
 }
 
+// How far along its side sample k lies, 0 to 1.
+float sampleAlongSide(uint sideEntry, uint k, SideRate side) {
+    if (inputs.rates.isFractional == 0u) return float(k) / float(side.segments);
+    if ((sideEntry & kSideSplit) == 0u) return sampleParameter(k, side.segments, side.rate);
+    uint n = side.segments / 2u, half_ = k > n ? 1u : 0u;
+    return 0.5 * (float(half_) + sampleParameter(k - half_ * n, n, 0.5 * side.rate));
+}
+
 // Sample k along a side, in the side's direction.
 SampleLocation sideLocation(uint sideEntry, uint k, SideRate side) {
     uint edge = sideEntry & kSideEdgeMask;

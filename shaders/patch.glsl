@@ -55,7 +55,9 @@ void main() {
     if (side != kInside) {
         uint entry = fetchFace(face).sides[side];
         SideRate rate = sideRate(entry);
-        location = sideLocation(entry, uint(round(x * float(rate.segments))), rate);
+        uint sample_ = uint(round(x * float(rate.segments)));
+        location = sideLocation(entry, sample_, rate);
+        if (kPass == kPassLayers) uv = sidePoint(side, sampleAlongSide(entry, sample_, rate));
     }
     emitVertex(face, uv, location, uint(ceil(max(insideRates.x, insideRates.y))));
 }

@@ -5,9 +5,9 @@
 #define RELIEF_FLAT flat
 #endif
 RELIEF_LOCATION(0) RELIEF_VARYING vec3 vNormal;
-RELIEF_LOCATION(1) RELIEF_VARYING vec4 vTexCoord; // (s,t), and for layers the face's own (u,v)
+RELIEF_LOCATION(1) RELIEF_VARYING vec4 vTexCoord; // (s,t), and with kPassLayers the face's own (u,v)
 RELIEF_LOCATION(2) RELIEF_VARYING float vHeight;
-RELIEF_LOCATION(3) RELIEF_FLAT RELIEF_VARYING uint vFace; // of the cage; for layers that of the surface
+RELIEF_LOCATION(3) RELIEF_FLAT RELIEF_VARYING uint vFace; // of the cage; with kPassLayers that of the surface
 RELIEF_LOCATION(4) RELIEF_FLAT RELIEF_VARYING uint vRate; // largest of the face's sides
 
 // kHasTexGradients: the gradients of s and t along the drawn surface, in the world's directions, cage units; the fourth number is

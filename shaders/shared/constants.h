@@ -25,7 +25,7 @@ RELIEF_CONSTANT uint kIdMapFormat = 12u;      // kMap... of shared/maps.h
 RELIEF_CONSTANT uint kIdHasWideIndices = 13u; // control points have 32-bit indices, see shared/records.h
 RELIEF_CONSTANT uint kIdHasStraightCorners = 14u;
 RELIEF_CONSTANT uint kIdPass = 15u;            // kPass...
-RELIEF_CONSTANT uint kIdIsMesh = 16u;          // layers: the model is a triangle mesh
+RELIEF_CONSTANT uint kIdIsMesh = 16u;          // layers, errors: the model is a triangle mesh
 RELIEF_CONSTANT uint kIdIsPlaced = 17u;        // the model is turned or scaled in the world
 RELIEF_CONSTANT uint kIdHasInstances = 18u;    // samples carry the number of their instance
 RELIEF_CONSTANT uint kIdEntries = 19u;         // posing: entries per stencil block
@@ -56,6 +56,7 @@ RELIEF_CONSTANT uint kShowRate = 3u;
 RELIEF_CONSTANT uint kShowFaces = 4u;
 RELIEF_CONSTANT uint kShowWireframe = 5u;
 RELIEF_CONSTANT uint kShowTexCoords = 6u;
+RELIEF_CONSTANT uint kShowError = 7u;
 
 // How surfaces shade (--shading); the physical material has a second form.
 RELIEF_CONSTANT uint kShadingPhysical = 0u;    // a dielectric
@@ -72,7 +73,7 @@ RELIEF_CONSTANT uint kPassSurface = 0u; // the G-buffer of a picture
 RELIEF_CONSTANT uint kPassShadow = 1u;  // depth from the key light
 RELIEF_CONSTANT uint kPassLines = 2u;   // the lines of a wireframe, over the surface
 RELIEF_CONSTANT uint kPassCracks = 3u;  // front faces count up, back faces down: closed surfaces sum to 0
-RELIEF_CONSTANT uint kPassLayers = 4u;  // what layers.comp reads
+RELIEF_CONSTANT uint kPassLayers = 4u;  // fragments know their face and (u,v): what layers.comp reads, errors
 
 // Normals of the displaced surface (--normal).
 RELIEF_CONSTANT uint kNormalLimit = 0u;

@@ -215,6 +215,11 @@ void checkShown(const PictureArgs& args, const std::string& cage, const LoadedOb
     const bool hasTexCoords = object.dense ? !object.dense->texCoords.empty() : object.cage.hasTexCoords();
     if (args.show == Show::texCoords && !hasTexCoords)
         fail(Failure::input, "{}: there are no texture coordinates, which --show uv shows", cage);
+    if (args.show == Show::error && object.dense)
+        fail(Failure::input,
+             "{}: polygons are drawn as they are; --show error compares triangles with a surface: name a "
+             "--scheme",
+             cage);
 }
 
 void checkFilter(const PictureArgs& args, const Device& device, const Warn& warn) {

@@ -46,7 +46,7 @@ Picture drawPicture(Renderer& renderer, const Instance& instance, RenderOptions&
 /// Warns where segments of a picture that was drawn may be longer than was asked for.
 void warnOfLongSegments(const RenderOptions& options, const Device& device, const FrameStats& stats, const Warn& warn);
 
-/// Throws Failure::input where texture coordinates are to be shown and `cage`, the object's file, has none.
+/// Throws Failure::input where texture coordinates or errors are to be shown and `cage`, the object's file, has none.
 void checkShown(const PictureArgs& args, const std::string& cage, const LoadedObject& object);
 /// Warns of more anisotropy than the device has; throws Failure::device where it has none.
 void checkFilter(const PictureArgs& args, const Device& device, const Warn& warn);

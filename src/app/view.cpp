@@ -141,7 +141,8 @@ Run addView(CLI::App& app) {
     addTime(app, args->animation.scene.object.motion);
     addOutput(app, args->output);
     app.footer("keys: ? lists them; drag to turn, shift-drag to move, wheel to zoom; drop files to show them\n"
-               "events: move X Y, press left|middle|right [shift|control], release BUTTON, wheel STEPS, key NAME,\n"
+               "events: move X Y, point SHARE WIDGET, press left|middle|right [shift|control], release BUTTON, wheel "
+               "STEPS, key NAME,\n"
                "        text WORDS, drop FILE, size W H, frame K, rest, wait SECONDS, frames N, screenshot FILE, "
                "report, close\n"
                "examples:\n"

@@ -50,13 +50,13 @@ void Renderer::Parts::makePlan(const Frame& frame, Drawn& drawn, FrameStats& sta
 
 DiceOptions Renderer::Parts::diceOptionsOf(const Frame& frame, const Drawn& drawn) const {
     const bool hasLayers = !frame.options.layers.empty();
-    const DrawPass mostWanted = hasLayers ? DrawPass::layers : DrawPass::surface;
+    const DrawPass mostWanted = hasLayers ? DrawPass::layers : frame.technique.pass;
     // Vertices hold what the pass that wants most reads: of layers that is more than of colors.
     const ShaderConstants constants = constantsOf(frame, drawn, mostWanted);
     return {.normal = frame.options.normal,
             .wantsTexCoords = constants.wantsTexCoords && constants.hasTexCoords,
             .wantsTexGradients = constants.hasTexGradients,
-            .wantsFaces = hasLayers,
+            .wantsFaces = rowOf(mostWanted).namesPoints,
             .memory = frame.options.memory};
 }
 
@@ -119,7 +119,7 @@ void Renderer::Parts::draw(Rendering& rendering, const Frame& frame, DrawPass pa
             vkCmdBindIndexBuffer(commands, drawn.mesh->indices.buffer.handle.get(), 0, VK_INDEX_TYPE_UINT32);
             rendering.drawMesh(0, drawn.mesh->triangleCount);
         } else if (frame.path == Path::dice) {
-            if (pass == DrawPass::layers)
+            if (rowOf(pass).namesPoints)
                 drawDicedFaces(rendering, drawn, pipeline);
             else
                 drawDiced(rendering, frame, drawn, pipeline);

@@ -91,7 +91,7 @@ enum class Raster {
     compute,   ///< compute shaders, on devices with DeviceTraits::hasLongAtomics, for meshes
 };
 
-enum class Show { shaded, normal, height, rate, faces, wireframe, texCoords };
+enum class Show { shaded, normal, height, rate, faces, wireframe, texCoords, error };
 
 struct RenderOptions : TriangleOptions {
     Show show = Show::shaded;

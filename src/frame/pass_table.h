@@ -20,7 +20,7 @@ constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM; // even steps suit a parallel projection
 constexpr VkFormat kLayerFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
 
-enum class DrawPass { shadow, surface, lines, cracks, layers };
+enum class DrawPass { shadow, surface, lines, cracks, layers, errors };
 
 struct DrawPassRow {
     const char* name = nullptr;
@@ -35,6 +35,8 @@ struct DrawPassRow {
     bool drawsHidden = false;    ///< faces out of view too: what casts a shadow, and what cracks are counted through
     bool isAdditive = false;
     bool drawsLines = false;
+    bool namesPoints =
+        false; ///< fragments know their face and where in it they lie: diced meshes are drawn face by face
 };
 
 /// The rows of all passes, in the order of DrawPass.
@@ -71,7 +73,17 @@ constexpr DrawPassRow kDrawPasses[] = {
      .depth = kDepthFormat,
      .marksInstances = true,
      .hasNormals = true,
-     .bendsNormals = true},
+     .bendsNormals = true,
+     .namesPoints = true},
+    {.name = "errors",
+     .constant = kPassLayers,
+     .fragment = "errors.frag",
+     .colors = {kNormalFormat, kColorFormat},
+     .depth = kDepthFormat,
+     .samples = VK_SAMPLE_COUNT_4_BIT,
+     .marksInstances = true,
+     .hasNormals = true,
+     .namesPoints = true},
 };
 
 constexpr const DrawPassRow& rowOf(DrawPass pass) { return kDrawPasses[std::size_t(pass)]; }
@@ -85,8 +97,9 @@ struct Technique {
     bool isLit = false;     ///< shadows, environment, tone curve; else colours to be seen as they are
     bool wantsAlbedo = false;
     bool wantsTexCoords = false;
-    bool wantsFaces = false; ///< fragments read the number of their face: a diced mesh is drawn face by face
-    bool hasLines = false;   ///< a pass of lines over the surface
+    bool wantsFaces = false;           ///< fragments read the number of their face: a diced mesh is drawn face by face
+    bool hasLines = false;             ///< a pass of lines over the surface
+    DrawPass pass = DrawPass::surface; ///< that draws the surface
 };
 
 /// The rows of all techniques, in the order of Show.
@@ -98,6 +111,7 @@ constexpr Technique kTechniques[] = {
     {.show = Show::faces, .constant = kShowFaces, .wantsFaces = true},
     {.show = Show::wireframe, .constant = kShowWireframe, .hasLines = true},
     {.show = Show::texCoords, .constant = kShowTexCoords, .wantsTexCoords = true},
+    {.show = Show::error, .constant = kShowError, .pass = DrawPass::errors},
 };
 static_assert(std::ranges::all_of(kTechniques, [](const Technique& t) { return &t - kTechniques == int(t.show); }));
 

@@ -13,14 +13,16 @@ std::uint32_t normalMapConstant(const ModelPictures& pictures) {
 
 ShaderConstants Renderer::Parts::constantsOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const {
     const DrawPassRow& row = rowOf(pass);
-    const NormalKind normal = row.hasNormals ? frame.options.normal : NormalKind::limit;
+    // Errors are measured along the normal of the surface that is displaced, whatever it is shaded by.
+    const NormalKind asked = pass == DrawPass::errors ? NormalKind::full : frame.options.normal;
+    const NormalKind normal = row.hasNormals ? asked : NormalKind::limit;
     ShaderConstants c =
         drawn.surface != nullptr ? relief::constantsOf(*drawn.surface, normal) : relief::constantsOf(*drawn.mesh);
     c.pass = row.constant;
     // Vertices of a diced mesh have their heights already; motion is evaluated again.
-    if (drawn.surface != nullptr && (frame.path != Path::dice || pass == DrawPass::layers)) {
+    if (drawn.surface != nullptr && (frame.path != Path::dice || row.namesPoints)) {
         c.hasMips = drawn.rates.hasMips();
-        c.readsNodes = readsNodes(*drawn.surface, drawn.rates);
+        c.readsNodes = pass != DrawPass::errors && readsNodes(*drawn.surface, drawn.rates); // fragments lie anywhere
     }
     c.hasInstances = row.marksInstances && frame.hasInstances();
     c.isPlaced = row.hasNormals && drawn.inputs.view.normalToWorld != mat3(1);
@@ -51,7 +53,7 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
         stages.push_back(ofSurface ? shaderStage(device, stage, file, drawn.function(), drawn.isTriangles())
                                    : shaderStage(device, stage, file));
     };
-    if (drawn.surface != nullptr && frame.path == Path::dice && pass == DrawPass::layers) {
+    if (drawn.surface != nullptr && frame.path == Path::dice && rowOf(pass).namesPoints) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "diced_layers.vert", true);
     } else if (drawn.surface == nullptr || frame.path == Path::dice) {
         add(VK_SHADER_STAGE_VERTEX_BIT, "mesh.vert", drawn.isBentByFunction());
@@ -63,7 +65,7 @@ std::vector<Stage> Renderer::Parts::stagesOf(const Frame& frame, const Drawn& dr
         add(VK_SHADER_STAGE_TESSELLATION_EVALUATION_BIT, "patch.tese", true);
     }
     if (const char* fragment = rowOf(pass).fragment)
-        add(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, drawn.isBentByFunction());
+        add(VK_SHADER_STAGE_FRAGMENT_BIT, fragment, drawn.isBentByFunction() || pass == DrawPass::errors);
     return stages;
 }
 
@@ -143,7 +145,7 @@ void Renderer::Parts::startPipelines(const Frame& frame) {
     for (const Drawn& drawn : frame.drawn)
         if (frame.castsShadows()) startPass(drawn, DrawPass::shadow, frame.shadowRaster);
     for (const Drawn& drawn : frame.drawn) {
-        startPass(drawn, DrawPass::surface, frame.raster);
+        startPass(drawn, frame.technique.pass, frame.raster);
         if (frame.writesIds) computePipeline("raster_resolve.comp", constantsOf(frame, drawn, DrawPass::surface));
         if (frame.technique.hasLines) drawPipeline(frame, drawn, DrawPass::lines);
     }

@@ -56,6 +56,7 @@ std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
         return fmt::format("{} reads no table of all samples of {} x {} pixels", device.traits().name, desc.width,
                            desc.height);
     if (frame.technique.hasLines) return "it draws no lines";
+    if (frame.technique.pass == DrawPass::errors) return "the device's own rasterizer evaluates the surface per pixel";
     if (frame.shading == kShadingVertexTable) return "it shades no vertices";
     if (frame.stats.triangleCount >= kMostIds)
         return fmt::format("{} triangles are more than samples can number", frame.stats.triangleCount);

@@ -227,12 +227,13 @@ Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instan
 void Renderer::Parts::makeSets(Frame& frame, DrawPass pass) {
     const PipelineLayoutDesc layout = passLayout(device);
     for (Drawn& drawn : frame.drawn)
-        drawn.set = makeBindingSet(device,
-                                   (frame.raster == Raster::compute
-                                        ? rasterPipeline("raster_triangles.comp", frame, drawn, pass)
-                                        : drawPipeline(frame, drawn, pass))
-                                       .get(),
-                                   layout, drawn.bindings);
+        drawn.set =
+            makeBindingSet(device,
+                           (frame.raster == Raster::compute
+                                ? rasterPipeline("raster_triangles.comp", frame, drawn, pass)
+                                : drawPipeline(frame, drawn, pass == DrawPass::surface ? frame.technique.pass : pass))
+                               .get(),
+                           layout, drawn.bindings);
     if (pass == DrawPass::surface)
         frame.set = makeBindingSet(device, lightPipeline(frame).get(), layout, frame.bindings);
 }
@@ -270,7 +271,7 @@ void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) 
         {attachment(images->normals), attachment(images->colors)}, attachment(images->depths), size()};
     if (frame.hasInstances()) all.colors.push_back(attachment(images->instances));
     Rendering rendering = begin(commands, frame, std::move(all));
-    draw(rendering, frame, DrawPass::surface);
+    draw(rendering, frame, frame.technique.pass);
     if (frame.technique.hasLines) draw(rendering, frame, DrawPass::lines);
     rendering.end();
 }

@@ -122,6 +122,7 @@ inline constexpr Word<Show> kShows[] = {
     {"faces", Show::faces, "each face of the cage in a color of its own"},
     {"wireframe", Show::wireframe, "the edges of the triangles"},
     {"uv", Show::texCoords, "texture coordinates: 8 x 8 fields per unit square, redder with s, greener with t"},
+    {"error", Show::error, "how far triangles are from the surface: orange a pixel outside, blue a pixel inside"},
 };
 
 inline constexpr Word<Layer> kLayers[] = {

@@ -51,68 +51,6 @@ Value nextOf(const Word<Value> (&table)[kCount], Value value) {
 
 // --- events --------------------------------------------------------------------------------------------------------
 
-void Viewer::takeEvents(double now) {
-    std::deque<Event>& live = window_.events();
-    if (!played_.empty()) {
-        live.clear(); // the user's own wait until the file has been played
-        if (takePlayed(now)) uiFrames_ = kFramesAfterEvent;
-        return;
-    }
-    // Panels see each press by itself, and at the place that the cursor has moved to.
-    bool hasMoved = false;
-    while (!live.empty()) {
-        const Event event = live.front();
-        if (event.kind == EventKind::press && hasMoved) return;
-        live.pop_front();
-        record(event);
-        apply(event);
-        uiFrames_ = kFramesAfterEvent;
-        hasMoved = hasMoved || event.kind == EventKind::move;
-        if (event.kind != EventKind::move && event.kind != EventKind::wheel) return;
-    }
-}
-
-/// Applies the next played event if it is its turn; returns whether it was.
-bool Viewer::takePlayed(double now) {
-    const Event event = played_.front();
-    const bool isResting = pacing_.isAtRest() && uiFrames_ == 0 && framesToPlay_ == 0 && !loader_.isBusy() &&
-                           !otherLoader_.isBusy() && !check_;
-    // Events that wait stay in front of the queue until what they wait for has happened.
-    switch (event.kind) {
-    case EventKind::rest:
-        if (isResting) played_.pop_front();
-        return false;
-    case EventKind::wait:
-        if (playedUntil_ == 0) playedUntil_ = now + event.at.x;
-        if (now < playedUntil_) return false;
-        playedUntil_ = 0;
-        played_.pop_front();
-        return false;
-    case EventKind::frames:
-        framesToPlay_ = int(event.at.x);
-        played_.front() = {.kind = EventKind::wait}; // goes on once they are drawn
-        playedUntil_ = 0;
-        return false;
-    default: break;
-    }
-    // All others act at once, one per frame, as a person's would.
-    if (framesToPlay_ > 0) return false;
-    played_.pop_front();
-    record(event);
-    apply(event);
-    return event.kind != EventKind::report;
-}
-
-/// Writes an event, and before it that the picture was at rest, so that the session plays the same on any device.
-void Viewer::record(const Event& event) {
-    if (!record_.is_open()) return;
-    if (pacing_.isAtRest() && report_.pictureCount != recordedPictures_) {
-        record_ << toLine({.kind = EventKind::rest}) << '\n';
-        recordedPictures_ = report_.pictureCount;
-    }
-    record_ << toLine(event) << '\n' << std::flush;
-}
-
 void Viewer::apply(const Event& event) {
     // Panels come first: what they take does not turn the camera below them.
     const bool isTaken = ui_->take(event);
@@ -196,6 +134,12 @@ void Viewer::look(double azimuth, double elevation) {
     setOrbit(turned);
 }
 
+/// From a perspective to a view of one degree, and back to the default one.
+void Viewer::toggleParallel() {
+    const bool isParallel = state_.look.scene.camera.fieldOfView == kParallelView;
+    setOrbit(widen(orbit(), isParallel ? CameraOptions().fieldOfView : kParallelView));
+}
+
 void Viewer::frameObject() {
     CameraOptions& camera = state_.look.scene.camera;
     camera.distance.reset(), camera.lookAt.reset();
@@ -206,10 +150,7 @@ void Viewer::frameObject() {
 
 void Viewer::pressKey(int key) {
     switch (key) {
-    case GLFW_KEY_SPACE:
-        state_.isPlaying = !state_.isPlaying && scene_->isMoving();
-        playStart_ = secondsNow(), playStartFrame_ = state_.look.frame;
-        break;
+    case GLFW_KEY_SPACE: playOrStop(); break;
     case GLFW_KEY_LEFT: step(-1); break;
     case GLFW_KEY_RIGHT: step(1); break;
     case GLFW_KEY_R: changeObject(); break;
@@ -236,9 +177,7 @@ void Viewer::pressViewKey(int key) {
     case GLFW_KEY_1: return look(isAt(0) && camera.elevation == 0 ? 180 : 0, 0);
     case GLFW_KEY_3: return look(isAt(90) && camera.elevation == 0 ? -90 : 90, 0);
     case GLFW_KEY_7: return look(0, camera.elevation == 90 ? -90 : 90);
-    case GLFW_KEY_5:
-        return setOrbit(
-            widen(orbit(), camera.fieldOfView == kParallelView ? CameraOptions().fieldOfView : kParallelView));
+    case GLFW_KEY_5: return toggleParallel();
     case GLFW_KEY_W:
         show = show == Show::shaded ? Show::wireframe : show == Show::wireframe ? Show::faces : Show::shaded;
         return changePicture();
@@ -342,6 +281,8 @@ void Viewer::startCheck() {
 }
 
 void Viewer::report() {
+    std::vector<std::string> widgets;
+    for (const auto& [label, place] : places_) widgets.push_back(label);
     const nlohmann::json counts{{"frames", report_.frameCount},
                                 {"pictures", report_.pictureCount},
                                 {"coarse", report_.coarseCount},
@@ -351,7 +292,9 @@ void Viewer::report() {
                                 {"frame", state_.look.frame},
                                 {"triangles", stats_.triangleCount},
                                 {"error", state_.error},
+                                {"notice", state_.notice},
                                 {"certificate", state_.certificate},
+                                {"widgets", widgets},
                                 {"command", command()}};
     desc_.report(counts.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
@@ -362,7 +305,9 @@ void Viewer::obey(const PanelWishes& wishes) {
     if (wishes.changesPicture) changePicture();
     if (wishes.changesObject || wishes.reloads) changeObject();
     if (wishes.frames) frameObject();
-    if (wishes.frontOf) look(*wishes.frontOf, 0);
+    if (wishes.plays) playOrStop();
+    if (wishes.togglesParallel) toggleParallel();
+    if (wishes.looksFrom) look(wishes.looksFrom->x, wishes.looksFrom->y);
     if (wishes.seeks) seek(*wishes.seeks);
     if (!wishes.opens.empty()) open(wishes.opens);
     if (wishes.copies) {
@@ -377,9 +322,14 @@ void Viewer::obey(const PanelWishes& wishes) {
         state_.error = onOneLine(error.what());
     }
     const bool isAny = !wishes.opens.empty() || wishes.changesPicture || wishes.changesObject || wishes.frames ||
-                       wishes.copies || wishes.shoots || wishes.exports || wishes.checks || wishes.frontOf ||
-                       wishes.seeks;
+                       wishes.copies || wishes.shoots || wishes.exports || wishes.checks || wishes.looksFrom ||
+                       wishes.togglesParallel || wishes.plays || wishes.seeks;
     if (isAny) uiFrames_ = kFramesAfterEvent;
+}
+
+void Viewer::playOrStop() {
+    state_.isPlaying = !state_.isPlaying && scene_->isMoving();
+    playStart_ = secondsNow(), playStartFrame_ = state_.look.frame;
 }
 
 void Viewer::seek(int frame) {

@@ -20,6 +20,7 @@ int countNumbers(EventKind kind) {
     switch (kind) {
     case EventKind::move:
     case EventKind::size: return 2;
+    case EventKind::point:
     case EventKind::wheel:
     case EventKind::frame:
     case EventKind::wait:
@@ -29,7 +30,8 @@ int countNumbers(EventKind kind) {
 }
 
 bool hasText(EventKind kind) {
-    return kind == EventKind::text || kind == EventKind::drop || kind == EventKind::screenshot;
+    return kind == EventKind::point || kind == EventKind::text || kind == EventKind::drop ||
+           kind == EventKind::screenshot;
 }
 
 bool hasButton(EventKind kind) { return kind == EventKind::press || kind == EventKind::release; }
@@ -57,7 +59,7 @@ std::optional<Event> parseEvent(const std::string& line, const std::string& plac
     std::string name;
     if (!(words >> name) || name.starts_with('#')) return {};
     const std::optional<EventKind> kind = valueOf(kEventKinds, name);
-    if (!kind) refuse(line, place, "move, press, release, wheel, key, text, drop, size, frame, rest, wait, ...");
+    if (!kind) refuse(line, place, "move, point, press, release, wheel, key, text, drop, size, frame, rest, wait, ...");
     Event event{.kind = *kind};
 
     // What follows the name depends on the kind.

@@ -19,6 +19,7 @@ inline constexpr Word<Button> kButtons[] = {
 
 enum class EventKind {
     move,
+    point,
     press,
     release,
     wheel,
@@ -37,6 +38,7 @@ enum class EventKind {
 
 inline constexpr Word<EventKind> kEventKinds[] = {
     {"move", EventKind::move, "X Y: the cursor, in pixels from the upper left corner"},
+    {"point", EventKind::point, "SHARE WIDGET: the cursor to a widget, at that share of its width, 0..1"},
     {"press", EventKind::press, "BUTTON, and shift or control where they are held"},
     {"release", EventKind::release, "BUTTON"},
     {"wheel", EventKind::wheel, "STEPS, positive away from the user"},
@@ -55,11 +57,11 @@ inline constexpr Word<EventKind> kEventKinds[] = {
 
 struct Event {
     EventKind kind = EventKind::move;
-    dvec2 at{0};                                  ///< move, size; of a wheel, a time or a count in x
+    dvec2 at{0};                                  ///< move, size; of a wheel, a time, a share or a count in x
     Button button{};                              ///< press, release
     int key = 0;                                  ///< a value of kKeys
     bool isShifted = false, isControlled = false; ///< press
-    std::string text;                             ///< text, drop, screenshot
+    std::string text;                             ///< text, drop, screenshot; the label of a widget
 };
 
 /// Reads one line. Nothing for an empty one and for a comment after '#'.

@@ -19,7 +19,7 @@ inline constexpr Word<int> kKeys[] = {
     {"5", GLFW_KEY_5, "parallel view and back"},
     {"W", GLFW_KEY_W, "shaded, wireframe, wireframe of the cage's faces"},
     {"H", GLFW_KEY_H, "cage, its creases coloured by sharpness"},
-    {"N", GLFW_KEY_N, "next view: normal, height, rate, faces, wireframe, uv"},
+    {"N", GLFW_KEY_N, "next view: normal, height, rate, faces, wireframe, uv, error"},
     {"D", GLFW_KEY_D, "what heights do: displacement, bump, both, none"},
     {"+", GLFW_KEY_EQUAL, "finer triangles"},
     {"-", GLFW_KEY_MINUS, "coarser triangles"},

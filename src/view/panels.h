@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 
 #include "view/shown_scene.h"
 
@@ -44,6 +45,7 @@ struct ViewState {
     std::string error;               ///< of the latest files that could not be read
     std::string notice;              ///< what was done last, such as a screenshot
     std::string certificate;         ///< the latest one, until it is closed
+    std::string reveals;             ///< label of a widget that the panel is to scroll to, or empty
     std::vector<std::string> recent; ///< paths of cages shown before, the latest first
 };
 
@@ -61,17 +63,34 @@ struct ViewFacts {
     std::string command; ///< of this picture
 };
 
+/// A rectangle of the window, pixels from its upper left corner.
+struct Place {
+    dvec2 low{0}, high{0};
+};
+
 /// What a panel asks for.
 struct PanelWishes {
     bool changesPicture = false, changesObject = false;
     bool frames = false, copies = false, shoots = false, reloads = false, exports = false, checks = false;
-    std::optional<double> frontOf; ///< azimuth of an axis view
-    std::optional<int> seeks;      ///< frame of the time line
-    std::string opens;             ///< path of the cage to show, or empty
+    bool plays = false; ///< or stops
+    bool togglesParallel = false;
+    std::optional<dvec2> looksFrom;      ///< azimuth and elevation of an axis view
+    std::optional<int> seeks;            ///< frame of the time line
+    std::string opens;                   ///< path of the cage to show, or empty
+    std::string reveals;                 ///< ViewState's
+    std::map<std::string, Place> places; ///< of all widgets, by their labels; rows of lists: "label: word"
 };
 
 /// Makes all panels of one frame; `size`: of the window in pixels.
 PanelWishes makePanels(ViewState& state, const ViewFacts& facts, const ivec2& size);
+
+/// Where panels are: the width of the one at the left edge, and what is left free around them, pixels.
+inline constexpr float kPanelWidth = 310, kMargin = 12;
+
+/// Keeps where the latest widget is, under its name. A frame has its label at its right: `frameWidth` is without that.
+void keepPlace(PanelWishes& wishes, const std::string& name, float frameWidth = 0);
+/// Makes what lies over the picture besides the panel: the time line, messages, the certificate, help.
+void makeOverlays(ViewState& state, const ViewFacts& facts, const ivec2& size, PanelWishes& wishes);
 
 /// Draws the cage over the picture: edges in white, creases from yellow to red by sharpness.
 void drawCage(const ShownScene& scene, const Camera& camera, const ivec2& size);

@@ -21,6 +21,16 @@ std::string makeFolder() {
 }
 
 std::string printedPath(const Temporary& folder) { return folder.path() + "/printed"; }
+std::string complaintsPath(const Temporary& folder) { return folder.path() + "/complaints"; }
+
+/// Empty where the process has not begun, or the file is gone.
+std::string readIfThere(const std::string& path) {
+    try {
+        return readFile(path);
+    } catch (const Error&) {
+        return "";
+    }
+}
 
 } // namespace
 
@@ -32,8 +42,9 @@ Process::Process(std::vector<std::string> words, bool endsWithThis)
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
-    const std::string printed = printedPath(*folder_);
+    const std::string printed = printedPath(*folder_), complaints = complaintsPath(*folder_);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, printed.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, complaints.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     pid_t child = -1;
     const int error = posix_spawn(&child, "/proc/self/exe", &files, nullptr, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
@@ -54,12 +65,7 @@ std::optional<int> Process::poll() {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string Process::output() const {
-    try {
-        return readFile(printedPath(*folder_));
-    } catch (const Error&) {
-        return ""; // it has not begun, or its file is gone
-    }
-}
+std::string Process::output() const { return readIfThere(printedPath(*folder_)); }
+std::string Process::complaints() const { return readIfThere(complaintsPath(*folder_)); }
 
 } // namespace relief

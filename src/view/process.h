@@ -10,7 +10,7 @@
 
 namespace relief {
 
-/// A process that this program started. What it prints is kept; its errors go where this program's go.
+/// A process that this program started. What it prints and complains of is kept.
 class Process {
 public:
     /// `words`: its arguments, beginning with a name. `endsWithThis`: it is ended where this object ends first; else it
@@ -24,6 +24,8 @@ public:
     std::optional<int> poll();
     /// What it has printed so far.
     [[nodiscard]] std::string output() const;
+    /// What it has written to stderr so far.
+    [[nodiscard]] std::string complaints() const;
 
 private:
     std::unique_ptr<Temporary> folder_;

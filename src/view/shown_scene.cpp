@@ -114,6 +114,16 @@ ShownScene::ShownScene(Device& device, const ViewDesc& desc, Prepared prepared)
     freeHostCopies(loaded_);
 }
 
+std::uint64_t ShownScene::mapBytes() const {
+    const auto* surface = std::get_if<SurfaceModel>(model_.get());
+    std::uint64_t bytes = surface != nullptr && surface->height ? surface->height->words.buffer.bytes : 0;
+    const ModelPictures& pictures =
+        std::visit([](const auto& m) -> const ModelPictures& { return m.pictures; }, *model_);
+    const auto add = [&](const auto& map) { bytes += map ? map->texture.memory.range().bytes : 0; };
+    add(pictures.albedo), add(pictures.slopes), add(pictures.normalMap);
+    return bytes;
+}
+
 double ShownScene::secondsOf(int frame) const { return frame / look_.scene.object.motion.cache.fps; }
 
 /// The box around the object in the pose that is drawn, or in all poses where the device does not move it.

@@ -45,6 +45,7 @@ public:
     /// Cage points of the pose that was drawn last, in the object's coordinates.
     [[nodiscard]] const std::vector<vec3>& cagePoints() const { return cagePoints_; }
     [[nodiscard]] std::uint64_t modelBytes() const { return byteCountOf(*model_); }
+    [[nodiscard]] std::uint64_t mapBytes() const; ///< of modelBytes(): heights, slopes, colours and normals
     [[nodiscard]] std::uint64_t uploadedBytes() const { return uploadedBytes_; } ///< for the latest pose
     [[nodiscard]] double poseMs() const { return poseMs_; }
 

@@ -16,6 +16,12 @@ std::string titleOf(const Look& look) {
     return "relief - " + std::filesystem::path(look.scene.object.cage).filename().string();
 }
 
+/// The last line of what a child process has complained of.
+std::string lastLineOf(std::string text) {
+    while (text.ends_with('\n')) text.pop_back();
+    return text.substr(text.rfind('\n') + 1);
+}
+
 } // namespace
 
 Viewer::Viewer(const ViewDesc& desc, const Warn& warn)
@@ -166,16 +172,21 @@ void Viewer::watchFiles(double now) {
 /// Polls the child processes and shows the results of those that have ended.
 void Viewer::watchProcesses() {
     if (const std::optional<int> code = export_ ? export_->poll() : std::nullopt) {
+        const std::string complaints = lastLineOf(export_->complaints());
         export_.reset();
-        state_.notice = *code == 0 ? "the turntable is written" : "the turntable was not written";
+        state_.notice = *code == 0 ? "the turntable is written" : "";
+        if (*code != 0) state_.error = "the turntable was not written: " + complaints;
         uiFrames_ = kFramesAfterEvent;
     }
     if (const std::optional<int> code = check_ ? check_->poll() : std::nullopt) {
-        const std::string text = check_->output();
+        const std::string text = check_->output(), complaints = lastLineOf(check_->complaints());
         check_.reset();
         if (state_.notice == kMakingCertificate) state_.notice.clear();
         state_.certificate = text;
-        if (text.empty()) state_.error = fmt::format("relief check ended with exit code {} and no certificate", *code);
+        // Without a certificate it has said why, in its last line.
+        if (text.empty())
+            state_.error =
+                complaints.empty() ? fmt::format("the certificate ended with exit code {}", *code) : complaints;
         uiFrames_ = kFramesAfterEvent;
     }
 }
@@ -325,6 +336,7 @@ void Viewer::present(double now) {
          .isCoarse = isCoarse_,
          .command = toShellLine(command())},
         size);
+    places_ = wishes.places;
     ui_->end();
     if (uiFrames_ > 0) --uiFrames_;
     if (framesToPlay_ > 0) --framesToPlay_;

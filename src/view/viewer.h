@@ -43,9 +43,10 @@ private:
     void fitToWindow();
     void watchProcesses();
 
-    // What users do: actions.cpp.
+    // What users do: playing.cpp, actions.cpp.
     void takeEvents(double now);
     bool takePlayed(double now);
+    Event toMove(const Event& event);
     void record(const Event& event);
     void apply(const Event& event);
     void press(const Event& event);
@@ -56,9 +57,11 @@ private:
     void open(const std::string& cage);
     void drop(const std::string& path);
     void obey(const PanelWishes& wishes);
+    void playOrStop();
     void seek(int frame);
     void step(int frames);
     void look(double azimuth, double elevation);
+    void toggleParallel();
     void frameObject();
     void exportTurntable();
     void startCheck();
@@ -100,8 +103,9 @@ private:
     std::ofstream record_;
     std::uint64_t recordedPictures_ = 0; ///< drawn when it was last recorded that the picture was at rest
     std::deque<Event> played_;
-    double playedUntil_ = 0; ///< of a wait
-    int framesToPlay_ = 0;   ///< of `frames`
+    double playedUntil_ = 0;              ///< of a wait
+    int framesToPlay_ = 0;                ///< of `frames`
+    std::map<std::string, Place> places_; ///< of widgets, as they were drawn last
     dvec2 cursor_{0};
     std::optional<Event> drag_; ///< its press
     bool dragsDivider_ = false;

@@ -24,15 +24,6 @@ TEST_F(FunctionNormals, areThoseOfAMapOfTheSameFormula) {
     }
 }
 
-/// The square from (-1, -1) to (1, 1) in the plane z = 0.
-Cage squareCage(bool hasTexCoords) {
-    Cage plane;
-    plane.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-    if (hasTexCoords) plane.texCoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-    addFace(plane, {0, 1, 2, 3}, hasTexCoords ? std::vector<std::uint32_t>{0, 1, 2, 3} : std::vector<std::uint32_t>{});
-    return plane;
-}
-
 /// Angles to the normals of h = 0.06 sin(15 x) cos(9 y) over the point (x, y) that a pixel sees; (u,v) of the square
 /// are its texture coordinates.
 std::vector<double> anglesToWaves(const std::vector<Seen>& pixels) {

@@ -77,6 +77,15 @@ inline RenderOptions bilinear() {
 
 inline constexpr Path kDetailPaths[] = {Path::tessellation, Path::grid, Path::dice};
 
+/// The square from (-1, -1) to (1, 1) in the plane z = 0.
+inline Cage squareCage(bool hasTexCoords) {
+    Cage plane;
+    plane.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+    if (hasTexCoords) plane.texCoords = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    addFace(plane, {0, 1, 2, 3}, hasTexCoords ? std::vector<std::uint32_t>{0, 1, 2, 3} : std::vector<std::uint32_t>{});
+    return plane;
+}
+
 /// A cube whose faces have islands of their own in the texture, one in two of them mirrored.
 inline Cage islands() {
     Cage cage = cubeOfIslands();

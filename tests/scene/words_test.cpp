@@ -27,7 +27,7 @@ TEST(Words, nameEachValueOfAnEnumerationOnce) {
     expectWhole(kMapFormatChoices, 6);
     expectWhole(kHeightSpaces, std::size_t(HeightSpace::stretch) + 1);
     expectWhole(kInterpolations, std::size_t(Interpolation::step) + 1);
-    expectWhole(kShows, std::size_t(Show::texCoords) + 1);
+    expectWhole(kShows, std::size_t(Show::error) + 1);
     expectWhole(kLayers, std::size_t(Layer::motion) + 1);
 }
 
