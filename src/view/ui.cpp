@@ -37,10 +37,11 @@ void setStyle() {
     style.WindowPadding = {12, 12};
     style.ScrollbarSize = 10;
     // Dark slate over the picture, with one warm accent.
-    const ImVec4 slate(0.11f, 0.12f, 0.14f, 0.88f), raised(0.20f, 0.22f, 0.25f, 1), accent(0.86f, 0.56f, 0.26f, 1);
+    const ImVec4 slate(0.11f, 0.12f, 0.14f, 0.88f), list(0.11f, 0.12f, 0.14f, 0.98f);
+    const ImVec4 raised(0.20f, 0.22f, 0.25f, 1), accent(0.86f, 0.56f, 0.26f, 1);
     const ImVec4 hovered(0.27f, 0.29f, 0.33f, 1), warm(0.45f, 0.34f, 0.22f, 1);
     const std::pair<int, ImVec4> colors[] = {
-        {ImGuiCol_WindowBg, slate},        {ImGuiCol_PopupBg, slate},          {ImGuiCol_FrameBg, raised},
+        {ImGuiCol_WindowBg, slate},        {ImGuiCol_PopupBg, list},           {ImGuiCol_FrameBg, raised},
         {ImGuiCol_Button, raised},         {ImGuiCol_Header, raised},          {ImGuiCol_TitleBgActive, slate},
         {ImGuiCol_TitleBg, slate},         {ImGuiCol_FrameBgHovered, hovered}, {ImGuiCol_ButtonHovered, hovered},
         {ImGuiCol_HeaderHovered, hovered}, {ImGuiCol_FrameBgActive, warm},     {ImGuiCol_ButtonActive, warm},

@@ -1,7 +1,11 @@
 #include "view/window.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <string_view>
+
+#include <dlfcn.h>
 
 #include "gpu/gpu.h"
 #include "view/keys.h"
@@ -35,6 +39,20 @@ std::string encode(unsigned int code) {
     return text;
 }
 
+/// Where its server goes away Xlib ends the process, whatever is done about it: with the exit code of a device that is
+/// lost, then, and a line of this program. GLFW has loaded the library where there is one.
+void answerLostDisplay() {
+    using Answer = int (*)(void*);
+    void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
+    if (library == nullptr) return;
+    const auto set = reinterpret_cast<Answer (*)(Answer)>(dlsym(library, "XSetIOErrorHandler"));
+    if (set == nullptr) return;
+    set([](void*) -> int {
+        std::fputs("relief: the display of the window is gone\n", stderr);
+        std::_Exit(int(Failure::device));
+    });
+}
+
 } // namespace
 
 Window::Window(const std::string& title, const ivec2& size) {
@@ -53,6 +71,7 @@ Window::Window(const std::string& title, const ivec2& size) {
         glfwTerminate();
         fail(Failure::device, "no window can be opened: {}", lastError());
     }
+    answerLostDisplay();
     glfwSetWindowUserPointer(handle_, this);
     listen();
 }

@@ -28,15 +28,19 @@ public:
         if (name.size() > 1) setenv("DISPLAY", name.c_str(), 1);
         isOpen_ = name.size() > 1;
     }
-    ~Display() {
-        if (process_ <= 0) return;
-        kill(process_, SIGTERM);
-        waitpid(process_, nullptr, 0);
-    }
+    ~Display() { stop(); }
     Display(const Display&) = delete;
     Display& operator=(const Display&) = delete;
 
     [[nodiscard]] bool isOpen() const { return isOpen_; }
+
+    /// Ends it, whatever is shown on it.
+    void stop() {
+        if (process_ <= 0) return;
+        kill(process_, SIGTERM);
+        waitpid(process_, nullptr, 0);
+        process_ = -1;
+    }
 
     /// Red, green and blue of the upper left part of the screen (X window dump: 32 bits per pixel, blue first).
     [[nodiscard]] std::vector<std::uint8_t> pixels(std::size_t width, std::size_t height) const {
@@ -61,7 +65,7 @@ private:
 };
 
 #define RELIEF_DISPLAY                                                                                                 \
-    const Display display;                                                                                             \
+    Display display;                                                                                                   \
     if (!display.isOpen()) GTEST_SKIP() << "no Xvfb here (Debian: apt-get install xvfb)"
 
 /// A map of 32 x 32 texels with waves of that many periods.

@@ -184,6 +184,17 @@ TEST(Window, saysWhyItCannotOpen) {
     expectRefused(relief({"view", cagePath("torus"), "--record", folder / "no/session"}), Failure::file, {"no"});
 }
 
+TEST(Window, endsWithItsDisplay) {
+    RELIEF_DISPLAY;
+    const TemporaryFolder folder;
+    Program window({"view", cagePath("torus"), "--size", "96,64", "--play",
+                    writeSession(folder, "session", "rest\nscreenshot " + (folder / "a.png") + "\nwait 100\nclose\n")});
+    for (int i = 0; i < 3000 && !std::filesystem::exists(folder / "a.png"); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    display.stop();
+    expectRefused(window.wait(), Failure::device, {});
+}
+
 TEST(Window, recordsWhatItPlays) {
     RELIEF_DISPLAY;
     const TemporaryFolder folder;
