@@ -128,6 +128,29 @@ TEST_F(ErrorPictures, areSmallWhereSegmentsAreAPixel) {
         }
 }
 
+// Segments as long as several waves of a map, with their ends where those are 0, are flat: what is missing is the map
+// itself, which their mip level does not hold.
+TEST_F(ErrorPictures, areThoseOfTheFullMap) {
+    const Cage plane = squareCage(true);
+    const Surface surface = buildSurface(plane, {.scheme = Scheme::bilinear});
+    constexpr double kEye = 4, kSize = 0.9, kAmplitude = 0.008, kWave = 6.283185307179586 * 8;
+    const HeightMap map = sineMap(256, kAmplitude, 8);
+    const SurfaceModel model(device(), {.surface = &surface, .cagePositions = plane.positions, .height = &map});
+    for (const Path path : {Path::grid, Path::dice}) {
+        RenderOptions options = errorOptions({0, 0, kEye}, kSize);
+        options.path = path;
+        options.rate = 2;
+        std::vector<double> differences;
+        for (const SeenError& seen : errorsIn(detailRenderer().render(model, options))) {
+            const dvec2 st = 0.5 * (kSize * dvec2(seen.at.x, -seen.at.y) + 1.0), phase = kWave * st;
+            const double height = kAmplitude * std::sin(phase.x) * std::cos(phase.y);
+            differences.push_back(std::abs(seen.pixels + height / (2 * kSize / 160)));
+        }
+        EXPECT_GT(differences.size(), 25'000u);
+        EXPECT_LT(rms(differences), 0.03) << int(path); // of waves 0.7 pixels high, in texels of 0.7 pixels
+    }
+}
+
 TEST_F(ErrorPictures, ofPolygonsAreNone) {
     const DenseMesh mesh = denseMesh(squareCage(false));
     const Model model = MeshModel(device(), {.mesh = &mesh});
