@@ -27,6 +27,7 @@ void main() {
     vTexCoord = vec4(kHasTexCoords && kWantsTexCoords ? meshTexCoords(vertex) : uv, uv);
     vHeight = at.w;
     readGradients(vertex);
+    if (!kHasTexGradients) vGradientS = vec4(at.xyz, 0.0);
     vFace = push.face;
     vRate = 1u;
 }

@@ -17,7 +17,7 @@ vec4 emitVertex(uint face, vec2 uv, SampleLocation location, uint rate) {
     vTexCoord = vec4(s.st, uv);
     if (kShading == kShadingVertexTable && kPass == kPassSurface) vTexCoord.zw = tableCoordinates(vNormal, s.q);
     vHeight = s.h;
-    vGradientS = kHasTexGradients ? worldGradient(s.gradientS) : vec4(0);
+    vGradientS = kHasTexGradients ? worldGradient(s.gradientS) : kPass == kPassLayers ? vec4(s.q, 0.0) : vec4(0);
     vGradientT = kHasTexGradients ? worldGradient(s.gradientT) : vec4(0);
 #ifdef RELIEF_HEIGHT_FUNCTION
     vRest = s.rest;

@@ -41,9 +41,9 @@ float signedError() {
     SampleLocation location = insideLocation(vFace, uv);
     location.level = 0.0;
     DisplacedSample there = displaced(vFace, uv, location);
-    vec3 here = positionAt(gl_FragCoord.xy);
-    float pixel = length(positionAt(gl_FragCoord.xy + vec2(0.0, 1.0)) - here);
-    return dot(there.normal, here - there.q) / pixel;
+    float pixel = length(positionAt(gl_FragCoord.xy + vec2(0.0, 1.0)) - positionAt(gl_FragCoord.xy));
+    // The point is interpolated as (u,v) is: SwiftShader takes both at another place than gl_FragCoord says.
+    return dot(there.normal, vGradientS.xyz - there.q) / pixel;
 }
 
 void main() {

@@ -11,7 +11,8 @@ RELIEF_LOCATION(3) RELIEF_FLAT RELIEF_VARYING uint vFace; // of the cage; with k
 RELIEF_LOCATION(4) RELIEF_FLAT RELIEF_VARYING uint vRate; // largest of the face's sides
 
 // kHasTexGradients: the gradients of s and t along the drawn surface, in the world's directions, cage units; the fourth number is
-// not used. Where heights stretch with the surface, gradients are multiplied with the stretch.
+// not used. Where heights stretch with the surface, gradients are multiplied with the stretch. Without kHasTexGradients, S holds
+// the point itself with kPassLayers, in the model's own space.
 RELIEF_LOCATION(5) RELIEF_VARYING vec4 vGradientS;
 RELIEF_LOCATION(6) RELIEF_VARYING vec4 vGradientT;
 
