@@ -171,8 +171,8 @@ void addSurface(CLI::App& app, ObjectDesc& object) {
                    "how the cage is subdivided (default: none where all faces are triangles, else catmark)"));
     listIn("surface", "N",
            app.add_option("--isolation", object.isolation,
-                          "levels of refinement around extraordinary vertices and creases, 0..10 (default: 2, or what "
-                          "semi-sharp creases need; 6 with --end-caps gregory)")
+                          "levels of refinement around extraordinary vertices and creases, 0..10 (default: 2, and as "
+                          "many around semi-sharp creases as they need; 6 with --end-caps gregory)")
                ->check(CLI::Range(0, 10)));
     listIn("surface", "KIND",
            addEnum(app, "--end-caps", object.endCaps, kEndCaps, "what faces at extraordinary vertices are made of"));

@@ -22,7 +22,8 @@ Subdivision chooseSubdivision(const ObjectDesc& desc, const Cage& cage) {
 SurfaceOptions makeSurfaceOptions(const ObjectDesc& desc, Subdivision subdivision, const Cage& cage) {
     return {.scheme = toScheme(subdivision),
             .isolation = desc.isolation.value_or(neededIsolation(cage, desc.endCaps)),
-            .endCaps = desc.endCaps};
+            .endCaps = desc.endCaps,
+            .separation = desc.isolation.value_or(kSeparation)};
 }
 
 /// Errors of the surface name the file of its cage.
@@ -39,7 +40,7 @@ void warnOfApproximateFaces(const LoadedObject& object, const std::string& path,
     if (faces.empty()) return;
     warn(fmt::format(
         "{}: {} of {} faces only approximate the limit surface, the first is face {}: their vertices are not "
-        "apart or semi-sharp after {} levels (--isolation), or have more than 64 faces between sharp edges",
+        "apart or semi-sharp after {} levels (--isolation), or their texture coordinates end at linear boundaries",
         path, faces.size(), object.cage.faceCount(), faces[0], object.options.isolation));
 }
 

@@ -114,11 +114,9 @@ bool CapWalker::find(int face, int sideCount, int levelCount) {
     CapPattern& pattern = sector_.pattern;
     // Two triangles around a vertex lie on each other.
     if (pattern.isClosed && pattern.faceCount < (sideCount == 4 && !pattern.hasDart ? 2 : 3)) return false;
-    if (pattern.faceCount > kMostCapFaces) {
-        if (pattern.rule != VertexRule::smooth || pattern.hasDart) return false;
-        const int window = levelCount + 1;
-        if (2 * window + 2 < pattern.faceCount) pattern.window = window;
-    }
+    const int window = levelCount + 1;
+    if (pattern.faceCount > kMostCapFaces && (!pattern.isClosed || 2 * window + 2 < pattern.faceCount))
+        pattern.window = window;
 
     // What the lattice takes the other corners for.
     const auto fits = [&](int step, bool isOnCrease) {
@@ -132,9 +130,10 @@ bool CapWalker::find(int face, int sideCount, int levelCount) {
 
 std::vector<FaceCorner> CapWalker::ring() const {
     std::vector<FaceCorner> ring{at_};
-    for (const int step : {1, 2})
-        for (const FaceCorner& face : sector_.faces)
-            if (step < sector_.pattern.sideCount - 1) ring.push_back(level_.turned(face, step));
+    for (const FaceCorner& face : sector_.faces) ring.push_back(level_.turned(face, 1));
+    if (!sector_.pattern.isClosed) ring.push_back(level_.turned(sector_.faces.back(), -1));
+    if (sector_.pattern.sideCount == 4)
+        for (const FaceCorner& face : sector_.faces) ring.push_back(level_.turned(face, 2));
     return ring;
 }
 
@@ -144,10 +143,8 @@ bool CapWalker::collect() {
     const auto faceAt = [&](int i) { return sector_.faces[(i + pattern.faceCount) % pattern.faceCount]; };
     const int first = pattern.firstSpoke(), last = first + pattern.windowFaceCount();
     for (int i = first; i < last; ++i) points_.push_back(level_.turned(faceAt(i), 1));
-    if (pattern.window > 0)
-        points_.push_back(level_.turned(faceAt(last), 1));
-    else if (!pattern.isClosed)
-        points_.push_back(level_.turned(sector_.faces.back(), -1));
+    const bool isWhole = pattern.window == 0 && pattern.isClosed;
+    if (!isWhole) points_.push_back(level_.turned(faceAt(last - 1), -1)); // behind the last face
     if (pattern.sideCount == 4)
         for (int i = first; i < last; ++i) points_.push_back(level_.turned(faceAt(i), 2));
     return pattern.sideCount == 4 ? collectOuterOfQuads() : collectOuterOfTriangles();

@@ -32,12 +32,9 @@ public:
         if (pattern_.sideCount == 4)
             for (int i = 0; i < pattern_.windowFaceCount(); ++i) a.row(row++) = facePoint(first + i);
         for (const LatticePoint& p : outer_) a.row(row++) = refined(p);
-        if (pattern_.window > 0) {
-            a.row(row++) = refinedMeanSpoke();
-            if (pattern_.sideCount == 4) a.row(row++) = meanFacePoint();
-            a.row(row++) = refinedVertex(); // tangents are not refined: any row that sums up to 1
-            a.row(row++) = refinedVertex();
-        }
+        for (int i = 0; i < pattern_.meanCount(); ++i) a.row(row++) = refinedMean(i);
+        // Tangents are not refined: any row that sums up to 1.
+        for (int i = 0; i < pattern_.tangentCount(); ++i) a.row(row++) = refinedVertex();
         RELIEF_CHECK(row == count_);
         return a;
     }
@@ -104,29 +101,33 @@ private:
 
     [[nodiscard]] RowVectorXd refinedVertex() const {
         if (pattern_.rule == VertexRule::corner) return vertex();
+        if (pattern_.window > 0 && pattern_.isDart()) return 0.5 * mean(0);
+        if (pattern_.rule == VertexRule::crease && pattern_.window > 0) return 0.75 * vertex() + 0.25 * mean(0);
         if (pattern_.rule == VertexRule::crease)
             return 0.75 * vertex() + 0.125 * (spoke(0) + spoke(pattern_.spokeCount() - 1));
         const int n = pattern_.faceCount;
         RowVectorXd around = RowVectorXd::Zero(count_);
         if (pattern_.sideCount == 3) {
-            if (pattern_.window > 0) around = n * meanSpoke();
+            if (pattern_.window > 0) around = n * mean(0);
             for (int j = 0; j < n && pattern_.window == 0; ++j) around += spoke(j);
             const double c = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n), beta = (0.625 - c * c) / n;
             return (1 - n * beta) * vertex() + beta * around;
         }
-        if (pattern_.window > 0) around = n * (meanSpoke() + meanFacePoint());
+        if (pattern_.window > 0) around = n * (mean(0) + meanFacePoint());
         for (int j = 0; j < n && pattern_.window == 0; ++j) around += spoke(j) + facePoint(j);
         return (n - 2.0) / n * vertex() + 1.0 / (double(n) * n) * around;
     }
 
     // With a window.
-    [[nodiscard]] RowVectorXd meanSpoke() const { return unit(count_ - pattern_.sumCount()); }
-    [[nodiscard]] RowVectorXd meanFacePoint() const {
-        return 0.25 * (vertex() + 2 * meanSpoke() + unit(count_ - pattern_.sumCount() + 1));
-    }
-    [[nodiscard]] RowVectorXd refinedMeanSpoke() const {
-        if (pattern_.sideCount == 3) return 0.375 * vertex() + 0.625 * meanSpoke();
-        return 0.25 * (vertex() + meanSpoke() + 2 * meanFacePoint());
+    [[nodiscard]] RowVectorXd mean(int i) const { return unit(count_ - pattern_.sumCount() + i); }
+    [[nodiscard]] RowVectorXd meanFacePoint() const { return 0.25 * (vertex() + 2 * mean(0) + mean(1)); }
+    [[nodiscard]] RowVectorXd refinedMean(int i) const {
+        if (pattern_.rule == VertexRule::crease) return 0.5 * (vertex() + mean(0));
+        // The vertex of later levels comes nearer, and is drawn twice as large. The last one is never asked for.
+        if (pattern_.isDart()) return i + 1 < pattern_.meanCount() ? 0.5 * mean(i + 1) : 0 * mean(i);
+        if (i == 1) return meanFacePoint();
+        if (pattern_.sideCount == 3) return 0.375 * vertex() + 0.625 * mean(0);
+        return 0.25 * (vertex() + mean(0) + 2 * meanFacePoint());
     }
 
     [[nodiscard]] RowVectorXd refinedSpoke(int j) const {
@@ -276,46 +277,38 @@ MatrixXd needleTangents(const CapPattern& pattern, const MatrixXd& deflated, con
     return rows;
 }
 
-/// At a crease: along it, and across it. Both turned to lie on either side of the cap's middle, so that they are never
-/// parallel, not even where the two sides of a lone face continue each other.
-MatrixXd creaseTangents(const CapPattern& pattern, const MatrixXd& deflated, const MatrixXd& deepest) {
-    const int n = pattern.faceCount, regularCount = pattern.sideCount == 4 ? 2 : 3;
-    const Eigen::Index count = deflated.rows();
-    const RowVectorXd along = 0.5 * (RowVectorXd::Unit(count, 1) - RowVectorXd::Unit(count, 1 + n));
-    RowVectorXd across;
-    if (n == 1) {
-        // The matrix may have no second eigenvector. What is left of both tangents where the first ones cancel.
-        across = std::ldexp(1.0, int(kCapLevels)) * deepest.colwise().sum();
-    } else {
-        // How far the middle edge moves by the eigenvector that is across.
-        MatrixXd rest = deflated;
-        if (n < regularCount) rest -= deflated * dominantProjection(deflated);
-        across = dominantProjection(rest).row(1 + n / 2);
-    }
-    const double middle = std::numbers::pi * (pattern.face + 0.5) / n;
+/// At a crease those of the ring: the other points around the cap do not count.
+MatrixXd creaseTangents(const CapPattern& pattern, Eigen::Index count) {
+    const MatrixXd ring = ringTangents(pattern);
+    MatrixXd rows = MatrixXd::Zero(2, count);
+    rows.leftCols(ring.cols()) = ring;
+    return rows;
+}
+
+/// At a crease around one face: along it, and what is left of both tangents where those cancel; the matrix may have no
+/// second eigenvector. Both turned as ringTangents() are.
+MatrixXd loneFaceTangents(const MatrixXd& deepest) {
+    const Eigen::Index count = deepest.cols();
+    const RowVectorXd along = 0.5 * (RowVectorXd::Unit(count, 1) - RowVectorXd::Unit(count, 2));
+    RowVectorXd across = deepest.colwise().sum();
+    across *= along.norm() / across.norm(); // a direction: of a similar length
     MatrixXd rows(2, count);
     for (int i = 0; i < 2; ++i) {
-        const double angle = middle + std::numbers::pi * (i == 0 ? -0.25 : 0.25);
+        const double angle = std::numbers::pi * (i == 0 ? 0.25 : 0.75);
         rows.row(i) = std::cos(angle) * along + std::sin(angle) * across;
     }
     return rows;
 }
 
-RowVectorXd stationaryRow(MatrixXd a) {
-    for (int i = 0; i < kSquarings; ++i) {
-        a = (a * a).eval();
-        const Eigen::VectorXd sums = a.rowwise().sum(); // 1 but for rounding, which would grow
-        a.array().colwise() /= sums.array();
-    }
-    return a.row(0) / a.row(0).sum();
+/// The left eigenvector of the eigenvalue 1; all others are below 2/3.
+RowVectorXd stationaryRow(const MatrixXd& a) {
+    constexpr int kRefinements = 120; // (2/3)^120 < 1e-20
+    RowVectorXd row = RowVectorXd::Unit(a.rows(), 0);
+    for (int i = 0; i < kRefinements; ++i) row = (row * a).eval();
+    return row / row.sum();
 }
 
 } // namespace
-
-int CapPattern::pointCount() const {
-    return 1 + windowSpokeCount() + (sideCount == 4 ? windowFaceCount() : 0) + int(capOuterPoints(*this).size()) +
-           sumCount();
-}
 
 std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern) {
     std::vector<LatticePoint> points;
@@ -328,72 +321,44 @@ std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern) {
     return points;
 }
 
-MatrixXd ringSums(const CapPattern& pattern) {
-    const int n = pattern.faceCount, sum = pattern.sumCount();
-    const bool hasFar = pattern.sideCount == 4;
-    MatrixXd rows = MatrixXd::Zero(sum, 1 + n * (hasFar ? 2 : 1));
-    rows.row(0).segment(1, n).setConstant(1.0 / n);
-    if (hasFar) rows.row(1).tail(n).setConstant(1.0 / n);
-
-    // The limit point, whose weights are Catmull and Clark's n^2, 4 and 1, or Loop's (Halstead, Kass and DeRose 1993).
-    const double angle = 2 * std::numbers::pi / n, c = std::cos(angle);
-    RowVectorXd limit = RowVectorXd::Zero(rows.cols());
-    if (hasFar) {
-        limit(0) = n / (n + 5.0);
-        limit.segment(1, n).setConstant(4 / (n * (n + 5.0)));
-        limit.tail(n).setConstant(1 / (n * (n + 5.0)));
-    } else {
-        const double middle = 0.375 + 0.25 * c, beta = (0.625 - middle * middle) / n;
-        limit(0) = 1 / (1 + 8 * beta * n / 3);
-        limit.tail(n).setConstant((1 - limit(0)) / n);
-    }
-    // Tangents to both sides of the cap's middle, nearly perpendicular however thin the face is. The eigenvector has
-    // the weights cos(j a) of ends and of corners (cos(j a) + cos((j + 1) a)) / (16 L - 4), L the eigenvalue.
-    const double fourL = (5 + c + std::cos(angle / 2) * std::sqrt(18 + 2 * c)) / 4;
-    for (int i = 0; i < 2; ++i) {
-        RowVectorXd tangent = RowVectorXd::Zero(rows.cols());
-        const double towards = angle * (pattern.face + 0.5) + std::numbers::pi * (i == 0 ? -0.25 : 0.25);
-        for (int j = 0; j < n; ++j) {
-            const auto at = [&](int k) { return 2.0 / n * std::cos(angle * k - towards); };
-            tangent(1 + j) = at(j);
-            if (hasFar) tangent(1 + n + j) = (at(j) + at(j + 1)) / (4 * fourL - 4);
-        }
-        rows.row(sum - 2 + i) = limit + tangent;
-    }
-    return rows;
-}
-
 MatrixXd refinementAround(const CapPattern& pattern) { return CapRefinement(pattern).matrix(); }
 
 CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(pattern) {
     const CapRefinement refinement(pattern);
     const MatrixXd a = refinementAround(pattern);
-    limit_ = stationaryRow(a);
     // Without the eigenvalue 1 of what all points share, powers of the matrix shrink: they are scaled by 2 per level.
-    const MatrixXd deflated = a - Eigen::VectorXd::Ones(a.rows()) * limit_;
+    MatrixXd deflated = a;
+    if (pattern.window == 0 || !pattern.isDart()) {
+        limit_ = stationaryRow(a);
+        deflated -= Eigen::VectorXd::Ones(a.rows()) * limit_;
+    }
 
     // Each level from the one before, twice as large.
     std::array<MatrixXd, kCapPieces> pieces;
     for (int piece = 0; piece < int(kCapPieces); ++piece) {
         const MatrixXd s = refinement.piece(piece);
         pieces[piece] = s;
-        MatrixXd weights = 2 * (s - Eigen::VectorXd::Ones(s.rows()) * limit_);
+        MatrixXd weights = 2 * s;
+        if (limit_.size() > 0) weights -= 2 * Eigen::VectorXd::Ones(s.rows()) * limit_;
         for (int level = 1; level <= std::max(levelCount, int(kCapLevels)); ++level) {
             if (level > 1) weights = (2 * weights * deflated).eval();
             if (piece == 0) levels_.emplace_back();
             levels_[level - 1][piece] = weights;
         }
     }
-    // Directions at the vertex itself, by its rules. The deepest level stands for the limit at corners.
+    // Directions at the vertex itself, by its rules. The deepest level stands for the limit between sharp edges.
     const MatrixXd deepest = diagonalTangents(pattern.sideCount, levels_[kCapLevels - 1][1]);
-    if (pattern.window > 0)
+    const bool isNeedle = pattern.isClosed && !pattern.hasDart;
+    if (pattern.tangentCount() > 0)
         tangents_ = MatrixXd::Identity(a.rows(), a.rows()).bottomRows(2);
+    else if (pattern.window > 0 || (pattern.rule == VertexRule::corner && !isNeedle))
+        tangents_ = deepest;
     else if (pattern.rule == VertexRule::corner)
-        tangents_ = pattern.isClosed && !pattern.hasDart ? needleTangents(pattern, deflated, pieces[1]) : deepest;
-    else if (pattern.rule == VertexRule::crease)
-        tangents_ = creaseTangents(pattern, deflated, deepest);
-    else
+        tangents_ = needleTangents(pattern, deflated, pieces[1]);
+    else if (pattern.rule == VertexRule::smooth)
         tangents_ = smoothTangents(pattern, deflated, pieces[1]);
+    else
+        tangents_ = pattern.faceCount == 1 ? loneFaceTangents(deepest) : creaseTangents(pattern, a.cols());
     levels_.resize(levelCount);
 }
 

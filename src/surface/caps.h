@@ -12,6 +12,7 @@
 // where l is the left eigenvector of the eigenvalue 1. All numbers are of the size of the face's sides, whatever n is.
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct CapPattern {
     bool hasDart = false; ///< closed, with one sharp edge, which lies before face 0
     VertexRule rule = VertexRule::smooth;
     /// Edges that count one by one to each side of the cap's own two, and faces to each side of the cap; 0 for all.
-    /// Only around smooth vertices without a dart, whose other edges and faces all count alike.
+    /// Beyond a sharp edge that ends the faces there is nothing.
     int window = 0;
 
     auto operator<=>(const CapPattern&) const = default;
@@ -46,12 +47,26 @@ struct CapPattern {
     }
     [[nodiscard]] bool isSharpBefore() const { return isSharp(face); }
     [[nodiscard]] bool isSharpAfter() const { return isSharp(face + 1); }
+    /// A vertex whose own rule is that of smooth ones, but not that of all its edges.
+    [[nodiscard]] bool isDart() const { return hasDart && rule == VertexRule::smooth; }
     /// The first edge and face that count one by one, and how many of each.
-    [[nodiscard]] int firstSpoke() const { return window == 0 ? 0 : face - window; }
-    [[nodiscard]] int windowSpokeCount() const { return window == 0 ? spokeCount() : 2 * window + 2; }
-    [[nodiscard]] int windowFaceCount() const { return window == 0 ? faceCount : 2 * window + 1; }
-    /// Points that stand for the whole ring where there is a window: as ringSums() has them.
-    [[nodiscard]] int sumCount() const { return window == 0 ? 0 : sideCount == 4 ? 4 : 3; }
+    [[nodiscard]] int firstSpoke() const {
+        return window == 0 ? 0 : isClosed ? face - window : std::max(face - window, 0);
+    }
+    [[nodiscard]] int windowFaceCount() const {
+        if (window == 0) return faceCount;
+        return (isClosed ? face + window : std::min(face + window, faceCount - 1)) - firstSpoke() + 1;
+    }
+    [[nodiscard]] int windowSpokeCount() const { return window == 0 ? spokeCount() : windowFaceCount() + 1; }
+    /// Points that stand for the whole ring where there is a window: those of ringMeans(), then p0 + p_u and p0 + p_v
+    /// at the vertex, which depend on all of the ring. Between sharp edges, but for creases, the deepest level stands
+    /// for them.
+    [[nodiscard]] int meanCount() const;
+    [[nodiscard]] int tangentCount() const;
+    [[nodiscard]] int sumCount() const { return meanCount() + tangentCount(); }
+    /// The pattern with the same matrices that is the same for all faces far from sharp edges, and for any number of
+    /// faces where the vertex's rule does not depend on it. The means and tangents of the ring are not those of it.
+    [[nodiscard]] CapPattern ofWindow() const;
     /// Points around the cap: the vertex, the other ends of its edges, the far corners of its faces if they have four
     /// sides, those of capOuterPoints(), then the sums.
     [[nodiscard]] int pointCount() const;
@@ -66,16 +81,28 @@ struct LatticePoint {
 /// The points around a cap that are in no face of its vertex, in the order of CapPattern::pointCount.
 std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern);
 
-/// The points that stand for the whole ring of a pattern with a window, as rows of weights of the vertex, the other
-/// ends of all edges and, of quads, the far corners of all faces: the mean of the ends, of quads the mean of the
-/// corners, and the vertex's limit point plus p_u and p_v there (the eigenvectors of the two largest eigenvalues below
-/// 1). Each row sums up to 1. A point far along the ring counts in a piece as its neighbours do, down to a level that
-/// depends on the window: refinement carries differences from one edge to the next, one edge per level.
-Eigen::MatrixXd ringSums(const CapPattern& pattern);
+// The ring of a vertex is the vertex, the other ends of all edges and, of quads, the far corners of all faces. A point
+// far along the ring counts in a piece as its neighbours do, down to a level that depends on the window: refinement
+// carries differences from one edge to the next, one edge per level.
+
+/// The weights of the ring's points for the vertex's limit point p0.
+Eigen::RowVectorXd ringLimit(const CapPattern& pattern);
+
+/// What the rule of a vertex with a window needs of all of its ring, a row per point that sums up to 1: of smooth
+/// vertices the mean of the ends, and of quads the mean of the corners; of creases the mean of the sharp edges' ends;
+/// at darts, where no few means follow from each other, p0 + 2^n (v_n - p0), v_n the vertex after n = 1, 2, ..
+/// refinements.
+Eigen::MatrixXd ringMeans(const CapPattern& pattern);
+
+/// The weights of the ring's points for p_u and p_v at the vertex, to either side of the cap's middle: of smooth
+/// vertices without a dart the eigenvectors of the two largest eigenvalues below 1, of creases those along and across,
+/// of sharp vertices without sharp edges those along the needle and around.
+Eigen::MatrixXd ringTangents(const CapPattern& pattern);
 
 // Pieces are at (1,0), at (1,1) and at (0,1); of triangles at (1,0), in the middle and at (0,1).
 
-/// The matrix A: the points around a cap of half the size as sums of those around the cap.
+/// The matrix A: the points around a cap of half the size as sums of those around the cap. At a dart with a window of
+/// C - p0, less p0: rows do not sum up to 1.
 Eigen::MatrixXd refinementAround(const CapPattern& pattern);
 
 /// What Q is made of.
@@ -86,7 +113,7 @@ public:
 
     [[nodiscard]] const CapPattern& pattern() const { return pattern_; }
     [[nodiscard]] int levelCount() const { return int(levels_.size()); }
-    /// Of the points around the cap for the limit point of the vertex.
+    /// Of the points around the cap for the limit point of the vertex; none at a dart with a window (ringLimit).
     [[nodiscard]] const Eigen::RowVectorXd& limitWeights() const { return limit_; }
     /// Weights of C - p0 for Q: a row per control point of a piece. `level`: n >= 1.
     [[nodiscard]] const Eigen::MatrixXd& pieceWeights(int level, int piece) const { return levels_[level - 1][piece]; }

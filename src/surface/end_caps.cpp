@@ -103,29 +103,34 @@ private:
         EndCap cap;
         cap.pattern = patternIndex(found.pattern()), cap.corner = std::uint32_t(found.corner());
         for (const FaceCorner& point : found.points()) cap.points.push_back(pointAt(point));
-        if (found.pattern().window > 0) addRingSums(cap, found, pointAt, sums);
+        if (found.pattern().window > 0) {
+            std::vector<int> ring;
+            for (const FaceCorner& point : found.ring()) ring.push_back(pointAt(point));
+            addRingSums(cap, found.pattern(), ring, sums);
+        }
         cap.limit = limitIndex(sums, cap);
         return cap;
     }
 
-    /// Means are one per vertex, in the order of the faces around whichever cap comes first; tangents are the cap's
-    /// own.
-    template <typename PointAt>
-    void addRingSums(EndCap& cap, const CapWalker& found, const PointAt& pointAt, Sums& sums) {
-        std::vector<int> ring;
-        for (const FaceCorner& point : found.ring()) ring.push_back(pointAt(point));
-        const Eigen::MatrixXd rows = ringSums(found.pattern());
-        const int meanCount = int(rows.rows()) - 2;
+    /// Means and the limit point are one per vertex, in the order of the faces around whichever cap comes first;
+    /// tangents are the cap's own.
+    void addRingSums(EndCap& cap, const CapPattern& pattern, const std::vector<int>& ring, Sums& sums) {
         const auto [mean, isNew] = means_.try_emplace({&sums.all, cap.points[0]}, 0);
-        for (int i = 0; i < meanCount && isNew; ++i) {
-            const int sum = sums.append(ring, rows.row(i));
-            if (i == 0) mean->second = sum;
+        if (isNew) {
+            if (sums.known.emplace(cap.points[0], std::uint32_t(sums.all.size())).second)
+                sums.append(ring, ringLimit(pattern));
+            const Eigen::MatrixXd rows = ringMeans(pattern);
+            mean->second = sums.first + int(sums.all.size());
+            for (const auto& row : rows.rowwise()) sums.append(ring, row);
         }
-        for (int i = 0; i < meanCount; ++i) cap.points.push_back(mean->second + i);
-        for (int i = 0; i < 2; ++i) cap.points.push_back(sums.append(ring, rows.row(meanCount + i)));
+        for (int i = 0; i < pattern.meanCount(); ++i) cap.points.push_back(mean->second + i);
+        if (pattern.tangentCount() == 0) return;
+        const Eigen::MatrixXd rows = ringTangents(pattern).rowwise() + ringLimit(pattern);
+        for (const auto& row : rows.rowwise()) cap.points.push_back(sums.append(ring, row));
     }
 
-    std::uint32_t patternIndex(const CapPattern& pattern) {
+    std::uint32_t patternIndex(const CapPattern& full) {
+        const CapPattern pattern = full.ofWindow();
         std::vector<std::shared_ptr<const CapMatrices>>& patterns = tables_.caps.patterns;
         const auto [found, isNew] = patterns_.try_emplace(pattern, std::uint32_t(patterns.size()));
         if (isNew) patterns.push_back(std::make_shared<const CapMatrices>(pattern, levelCount_));

@@ -114,21 +114,19 @@ int enterTriangleChild(dvec2& uv);
 /// (u,v) of the middle of a patch in its face.
 dvec2 patchCenter(const Far::PatchParam& param, int sideCount);
 
-/// Fills in tables.caps: the end caps around which the rules of subdivision stay as they are at all further levels, of
-/// smooth vertices, and of others with at most kMostCapFaces faces between sharp edges. `levelCount`: of the matrices.
+/// Fills in tables.caps: the end caps around which the rules of subdivision stay as they are at all further levels.
+/// `levelCount`: of the matrices.
 void findEndCaps(FarTables& tables, int levelCount);
 
-/// Faces around a vertex whose points count one by one. Evaluations would take too long with more, and tables too much
-/// where each face has its own: between sharp edges 300 kB per face for 64 of them. Smooth vertices of more have
-/// windows.
+/// Faces around a vertex, between two sharp edges if it has them, whose points count one by one. Evaluations would take
+/// too long with more, and tables too much between sharp edges, where each face has its own: 300 kB per face for 64 of
+/// them. Vertices of more have windows.
 inline constexpr int kMostCapFaces = 64;
 /// Faces around a vertex at all.
 inline constexpr int kMostRingFaces = 1000;
 
 /// Some semi-sharp edge or vertex is sharper than there are levels.
 bool hasFiniteSharpnessPast(const Cage& cage, int isolation);
-/// Some vertex of more than kMostCapFaces faces has sharp edges, is sharp or lies at a boundary.
-bool hasLargeSharpVertex(const Cage& cage);
 
 // The steps of buildSurface, each fills its own part of the surface; the last one uses the tables up.
 void fillPatches(Surface& surface, const FarTables& tables);

@@ -48,7 +48,7 @@ void addCap(Patch& patch, const EndCap& cap, std::uint32_t firstLimit, std::vect
 
 /// Appends a pattern's weights in the order of shared/surface.h.
 void addCapTable(Surface& surface, const CapMatrices& matrices) {
-    const Eigen::Index ringCount = matrices.limitWeights().size();
+    const Eigen::Index ringCount = matrices.pattern().pointCount();
     const auto pointCount = std::uint32_t((ringCount + 1 + 3) / 4 * 4);
     surface.capTables.push_back({std::uint32_t(surface.capWeights.size()), pointCount});
     std::vector<float>& weights = surface.capWeights;

@@ -302,7 +302,10 @@ dvec3 ReferenceSurface::areaNormal(int face, const dvec2& uv) const {
         return glm::cross(frame.pu, frame.pv);
     };
     const LimitFrame frame = limit(face, uv);
-    if (frame.hasTangentPlane() || !isCorner(parts_->sideCount, uv)) return glm::cross(frame.pu, frame.pv);
+    // At creases exact end caps have two directions of the tangent plane, however thin the face is.
+    const EndCap* cap = Parts::capOf(parts_->tables.caps.surface, parts_->patchAt(face, uv));
+    const bool isCrease = cap && parts_->tables.caps.patterns[cap->pattern]->pattern().rule == VertexRule::crease;
+    if (isCrease || frame.hasTangentPlane() || !isCorner(parts_->sideCount, uv)) return glm::cross(frame.pu, frame.pv);
     // One-sided differences of second order, small within the patch that holds the corner.
     const auto depth = depthInFace(parts_->tables.patches->GetPatchParam(parts_->patchAt(face, uv)));
     const double h = std::ldexp(1e-3, -depth);

@@ -194,14 +194,13 @@ double countEdgesAfter(const Cage& cage, int levels) {
 } // namespace
 
 int neededIsolation(const Cage& cage, EndCapKind endCaps) {
-    constexpr int kSeparating = 2, kApproximating = 6;
+    constexpr int kApproximating = 6;
     if (endCaps == EndCapKind::gregory) return kApproximating;
-    if (hasLargeSharpVertex(cage)) return kApproximating;
     float sharpest = 0;
     for (const auto* sharpnesses : {&cage.creaseSharpness, &cage.vertexSharpness})
         for (const float s : *sharpnesses)
             if (s < OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE) sharpest = std::max(sharpest, s);
-    const int levels = std::max(int(std::ceil(sharpest)), kSeparating);
+    const int levels = std::max(int(std::ceil(sharpest)), kSeparation);
     return levels > kApproximating && countEdgesAfter(cage, levels) > kMostSemiSharpEdges ? kApproximating : levels;
 }
 
@@ -213,7 +212,11 @@ FarTables makeFarTables(const Cage& cage, const SurfaceOptions& options, int cap
     tables.hasTexCoords = cage.hasTexCoords();
     tables.isolation = std::max(options.isolation, leastIsolation(cage, options.scheme));
     const auto patchTableOptions = patchOptions(tables.hasTexCoords, tables.isolation);
-    tables.refiner->RefineAdaptive(patchTableOptions.GetRefineAdaptiveOptions());
+    auto refinement = patchTableOptions.GetRefineAdaptiveOptions();
+    if (options.endCaps == EndCapKind::exact)
+        refinement.SetSecondaryLevel(
+            std::clamp(options.separation, leastIsolation(cage, options.scheme), tables.isolation));
+    tables.refiner->RefineAdaptive(refinement);
     tables.patches.reset(Far::PatchTableFactory::Create(*tables.refiner, patchTableOptions));
     if (!tables.patches) failWithComplaint("no patches could be made of the cage");
     if (tables.patches->GetNumPatchesTotal() == 0) failWithoutPatches(cage);

@@ -14,21 +14,24 @@ enum class Scheme { catmark, loop, bilinear };
 
 /// What stands for the surface in faces at extraordinary vertices.
 enum class EndCapKind {
-    exact,  ///< the limit surface; Gregory patches where rules are semi-sharp or more than 64 faces lie between sharp
-            ///< edges
+    exact,  ///< the limit surface; Gregory patches where rules stay semi-sharp
     gregory ///< OpenSubdiv's patches, which approximate it
 };
 
-/// Levels of adaptive refinement that a cage needs: 2 separate extraordinary vertices from each other, semi-sharp
-/// creases and vertices need as many as their sharpness; where tables would grow past 100 MB for these, 6 at most. 6
-/// with Gregory patches, which only get nearer to the surface with each level, and where exact end caps would have more
-/// than 64 faces between sharp edges.
+/// Levels of adaptive refinement that separate extraordinary vertices from each other.
+inline constexpr int kSeparation = 2;
+
+/// Levels of adaptive refinement that a cage needs: kSeparation, or as many as semi-sharp creases and vertices are
+/// sharp; where tables would grow past 100 MB for these, 6 at most. 6 with Gregory patches, which only get nearer to
+/// the surface with each level.
 int neededIsolation(const Cage& cage, EndCapKind endCaps);
 
 struct SurfaceOptions {
     Scheme scheme = Scheme::catmark;
     int isolation = 6; ///< levels of adaptive refinement around features, 0..10
     EndCapKind endCaps = EndCapKind::exact;
+    /// Of these levels, those around extraordinary vertices: exact end caps need no more. Gregory patches have all.
+    int separation = kSeparation;
 };
 
 /// Weights of one pattern of rules around an extraordinary vertex (surface/caps.h).
@@ -88,8 +91,8 @@ struct Surface {
 Surface buildSurface(const Cage& cage, const SurfaceOptions& options);
 
 /// Lists the faces of the cage that hold patches which only approximate the limit surface although exact end caps were
-/// asked for, in rising order: beside semi-sharp creases and vertices that are sharper than the isolation, at vertices
-/// with more than 64 faces between sharp edges, and where the isolation does not separate extraordinary vertices.
+/// asked for, in rising order: beside semi-sharp creases and vertices that are sharper than the isolation, where the
+/// isolation does not separate extraordinary vertices, and where texture coordinates end at linear boundaries.
 /// `surface`: the one that was built of the cage with these options; it is built where there is none and need for it.
 std::vector<std::uint32_t> listApproximateFaces(const Cage& cage, const SurfaceOptions& options,
                                                 const Surface* surface = nullptr);

@@ -7,10 +7,13 @@
 namespace relief {
 namespace {
 
-constexpr double kInfinite = 10;
+using Real = DeepOracle::Real;
+using RealPoint = DeepOracle::RealPoint;
 
-bool isSharp(double s) { return s > 0; }
-double less(double s) { return s >= kInfinite ? s : std::max(s - 1, 0.0); }
+constexpr Real kInfinite = 10, kHalf = Real(1) / 2, kQuarter = Real(1) / 4, kEighth = Real(1) / 8;
+
+bool isSharp(Real s) { return s > 0; }
+Real less(Real s) { return s >= kInfinite ? s : std::max(s - 1, Real(0)); }
 
 } // namespace
 
@@ -61,69 +64,70 @@ void DeepOracle::refine() {
             neighbours[v[i]].insert(v[(i + 1) % n]), neighbours[v[(i + 1) % n]].insert(v[i]);
         }
     }
-    const auto sharpnessOf = [&](const EdgeKey& e) { return sharpness_.contains(e) ? sharpness_.at(e) : 0.0; };
+    const auto sharpnessOf = [&](const EdgeKey& e) { return sharpness_.contains(e) ? sharpness_.at(e) : Real(0); };
     const auto isCut = [&](const EdgeKey& e) { return edges.at(e).faces.size() == 1 && !boundary_.contains(e); };
 
     // New points; a missing one depends on what is forgotten.
-    std::vector<dvec3> points;
-    const auto addPoint = [&](const dvec3& p) { return points.push_back(p), int(points.size()) - 1; };
+    std::vector<RealPoint> points;
+    const auto addPoint = [&](const RealPoint& p) { return points.push_back(p), int(points.size()) - 1; };
     std::vector<int> facePoints(faces_.size(), -1);
-    std::vector<dvec3> centers(faces_.size(), dvec3(0));
+    std::vector<RealPoint> centers(faces_.size(), RealPoint(0));
     for (std::size_t f = 0; f < faces_.size(); ++f) {
-        for (const int v : faces_[f].vertices) centers[f] += positions_[v] / double(faces_[f].vertices.size());
+        for (const int v : faces_[f].vertices) centers[f] += positions_[v] / Real(faces_[f].vertices.size());
         if (sideCount_ == 4) facePoints[f] = addPoint(centers[f]);
     }
     std::map<EdgeKey, int> edgePoints;
-    std::map<EdgeKey, double> newSharpness;
+    std::map<EdgeKey, Real> newSharpness;
     std::set<EdgeKey> newBoundary;
     for (const auto& [key, e] : edges) {
         if (isCut(key)) continue;
-        const dvec3 a = positions_[key.first], b = positions_[key.second];
-        const double sharp = std::min(sharpnessOf(key), 1.0);
-        dvec3 p = 0.5 * (a + b);
+        const RealPoint a = positions_[key.first], b = positions_[key.second];
+        const Real sharp = std::min(sharpnessOf(key), Real(1));
+        RealPoint p = kHalf * (a + b);
         if (sharp < 1) {
-            dvec3 smooth = 0.375 * (a + b);
+            RealPoint smooth = 3 * kEighth * (a + b);
             if (sideCount_ == 4)
-                smooth = 0.25 * (a + b + centers[e.faces[0]] + centers[e.faces[1]]);
+                smooth = kQuarter * (a + b + centers[e.faces[0]] + centers[e.faces[1]]);
             else
-                for (const int v : e.opposite) smooth += 0.125 * positions_[v];
+                for (const int v : e.opposite) smooth += kEighth * positions_[v];
             p = sharp * p + (1 - sharp) * smooth;
         }
         edgePoints[key] = addPoint(p);
     }
     std::map<int, int> vertexPoints;
-    std::map<int, double> newVertexSharpness;
+    std::map<int, Real> newVertexSharpness;
     for (const auto& [v, around] : neighbours) {
         const bool isComplete = std::ranges::none_of(around, [&](int w) { return isCut(keyOf(v, w)); });
         if (!isComplete) continue;
         const auto masked = [&](const std::vector<int>& sharpEnds, bool isCorner) {
             if (isCorner || sharpEnds.size() > 2) return positions_[v];
             if (sharpEnds.size() == 2)
-                return 0.75 * positions_[v] + 0.125 * (positions_[sharpEnds[0]] + positions_[sharpEnds[1]]);
-            const double n = double(around.size());
-            dvec3 ends(0), middles(0);
+                return 3 * kQuarter * positions_[v] + kEighth * (positions_[sharpEnds[0]] + positions_[sharpEnds[1]]);
+            const Real n = Real(around.size());
+            RealPoint ends(0), middles(0);
             for (const int w : around) ends += positions_[w];
             if (sideCount_ == 3) {
-                const double c = 0.375 + 0.25 * std::cos(2 * std::numbers::pi / n), beta = (0.625 - c * c) / n;
+                const Real c = 3 * kEighth + kQuarter * std::cos(2 * std::numbers::pi_v<Real> / n);
+                const Real beta = (5 * kEighth - c * c) / n;
                 return (1 - n * beta) * positions_[v] + beta * ends;
             }
             for (const int f : facesOf[v]) middles += centers[f];
             return (n - 2) / n * positions_[v] + (ends + middles) / (n * n);
         };
         std::vector<int> now, later;
-        double sum = 0;
+        Real sum = 0;
         int fading = 0;
         for (const int w : around) {
-            const double s = sharpnessOf(keyOf(v, w));
+            const Real s = sharpnessOf(keyOf(v, w));
             if (isSharp(s)) now.push_back(w);
             if (isSharp(less(s))) later.push_back(w);
             if (isSharp(s) && !isSharp(less(s))) sum += s, ++fading;
         }
-        const double own = vertexSharpness_.contains(v) ? vertexSharpness_.at(v) : 0;
+        const Real own = vertexSharpness_.contains(v) ? vertexSharpness_.at(v) : 0;
         if (isSharp(own) && !isSharp(less(own))) sum += own, ++fading;
         // DeRose, Kass and Truong: rules of two levels are blended where sharpness ends between them.
-        const dvec3 before = masked(now, isSharp(own)), after = masked(later, isSharp(less(own)));
-        const double blend = fading > 0 ? sum / fading : 1;
+        const RealPoint before = masked(now, isSharp(own)), after = masked(later, isSharp(less(own)));
+        const Real blend = fading > 0 ? sum / Real(fading) : 1;
         vertexPoints[v] = addPoint(blend * before + (1 - blend) * after);
         if (isSharp(less(own))) newVertexSharpness[vertexPoints[v]] = less(own);
     }
@@ -148,12 +152,12 @@ void DeepOracle::refine() {
             return pointOf(edgePoints, keyOf(face.vertices[i % n], face.vertices[(i + 1) % n]));
         };
         const bool isNgon = n != sideCount_;
-        const auto add = [&](std::vector<int> vertices, int number, ivec2 origin, int sign) {
+        const auto add = [&](std::vector<int> vertices, int number, Place origin, int sign) {
             if (std::ranges::find(vertices, -1) == vertices.end())
                 newFaces.push_back({std::move(vertices), number, origin, sign, isNgon ? 0 : face.depth + 1});
         };
         if (sideCount_ == 3) {
-            const ivec2 o = 2 * face.origin, u(face.sign, 0), v(0, face.sign);
+            const Place o = std::int64_t(2) * face.origin, u(face.sign, 0), v(0, face.sign);
             add({vertex(0), middle(0), middle(2)}, face.face, o, face.sign);
             add({middle(0), vertex(1), middle(1)}, face.face, o + u, face.sign);
             add({middle(2), middle(1), vertex(2)}, face.face, o + v, face.sign);
@@ -164,11 +168,11 @@ void DeepOracle::refine() {
                 const int ring[] = {vertex(i), middle(i), facePoints[f], middle(i + 3)};
                 std::vector<int> vertices(4);
                 for (int k = 0; k < 4; ++k) vertices[(i + k) % 4] = ring[k];
-                add(vertices, face.face, 2 * face.origin + ivec2(i == 1 || i == 2, i >= 2), 1);
+                add(vertices, face.face, std::int64_t(2) * face.origin + Place(i == 1 || i == 2, i >= 2), 1);
             }
         } else {
             for (int i = 0; i < n; ++i)
-                add({vertex(i), middle(i), facePoints[f], middle(i + n - 1)}, face.face + i, ivec2(0), 1);
+                add({vertex(i), middle(i), facePoints[f], middle(i + n - 1)}, face.face + i, Place(0), 1);
         }
     }
     vertex_ = vertexPoints.at(vertex_);
@@ -199,24 +203,24 @@ void DeepOracle::keepNear() {
 }
 
 std::vector<DeepOracle::Sample> DeepOracle::samples() const {
-    std::map<int, std::map<std::pair<int, int>, dvec3>> lattices; // by face
+    std::map<int, std::map<std::pair<std::int64_t, std::int64_t>, RealPoint>> lattices; // by face
     std::map<int, int> depths;
     for (const Face& face : faces_) {
         if (int(face.vertices.size()) != sideCount_) continue;
         constexpr int kQuad[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kTriangle[][2] = {{0, 0}, {1, 0}, {0, 1}};
         for (int k = 0; k < sideCount_; ++k) {
             const int* step = sideCount_ == 4 ? kQuad[k] : kTriangle[k];
-            const ivec2 at = face.origin + face.sign * ivec2(step[0], step[1]);
+            const Place at = face.origin + std::int64_t(face.sign) * Place(step[0], step[1]);
             lattices[face.face][{at.x, at.y}] = positions_[face.vertices[k]];
         }
         depths[face.face] = face.depth;
     }
     std::vector<Sample> found;
     for (const auto& [face, lattice] : lattices) {
-        const double n = std::ldexp(1.0, depths.at(face));
+        const Real n = std::ldexp(Real(1), depths.at(face));
         for (const auto& [at, center] : lattice) {
             const auto [x, y] = at;
-            dvec3 p[3][3]; // by row
+            RealPoint p[3][3]; // by row
             bool isWhole = true;
             for (int j = 0; j < 3; ++j)
                 for (int i = 0; i < 3; ++i) {
@@ -226,29 +230,43 @@ std::vector<DeepOracle::Sample> DeepOracle::samples() const {
                     if (isWhole) p[j][i] = found->second;
                 }
             if (!isWhole) continue;
-            Sample sample{face, dvec2(x, y) / n, {}};
+            Sample sample{face, dvec2(glm::vec<2, Real>(x, y) / n), {}};
             LimitFrame& f = sample.frame;
             if (sideCount_ == 4) {
-                const auto sum = [&](const dvec3& u, const dvec3& v) {
-                    dvec3 s(0);
+                const auto sum = [&](const RealPoint& u, const RealPoint& v) {
+                    RealPoint s(0);
                     for (int j = 0; j < 3; ++j)
                         for (int i = 0; i < 3; ++i) s += u[i] * v[j] * p[j][i];
                     return s;
                 };
                 // The uniform cubic B-spline and its derivatives at a knot.
-                const dvec3 w = dvec3(1, 4, 1) / 6.0, d = dvec3(-0.5, 0, 0.5), dd(1, -2, 1);
-                f = {sum(w, w),          n * sum(d, w),     n * sum(w, d),
-                     n * n * sum(dd, w), n * n * sum(d, d), n * n * sum(w, dd)};
+                const RealPoint w = RealPoint(1, 4, 1) / Real(6), d = kHalf * RealPoint(-1, 0, 1), dd(1, -2, 1);
+                f = {dvec3(sum(w, w)),          dvec3(n * sum(d, w)),     dvec3(n * sum(w, d)),
+                     dvec3(n * n * sum(dd, w)), dvec3(n * n * sum(d, d)), dvec3(n * n * sum(w, dd))};
             } else {
-                const dvec3 e = p[1][2], ne = p[2][1], nw = p[2][0], west = p[1][0], sw = p[0][1], se = p[0][2];
-                f.p = (6.0 * center + e + ne + nw + west + sw + se) / 12.0;
-                f.pu = n / 6 * (2.0 * (e - west) + ne - nw - sw + se);
-                f.pv = n / 6 * (2.0 * (ne - sw) + e + nw - west - se);
+                const RealPoint e = p[1][2], ne = p[2][1], nw = p[2][0], west = p[1][0], sw = p[0][1], se = p[0][2];
+                f.p = dvec3((Real(6) * center + e + ne + nw + west + sw + se) / Real(12));
+                f.pu = dvec3(n / 6 * (Real(2) * (e - west) + ne - nw - sw + se));
+                f.pv = dvec3(n / 6 * (Real(2) * (ne - sw) + e + nw - west - se));
             }
             found.push_back(sample);
         }
     }
     return found;
+}
+
+DeepOracle::Sample DeepOracle::vertex() const {
+    for (const Face& face : faces_) {
+        const auto at = std::ranges::find(face.vertices, vertex_) - face.vertices.begin();
+        if (at == std::ptrdiff_t(face.vertices.size()) || int(face.vertices.size()) != sideCount_) continue;
+        constexpr int kQuad[][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, kTriangle[][2] = {{0, 0}, {1, 0}, {0, 1}};
+        const int* step = sideCount_ == 4 ? kQuad[at] : kTriangle[at];
+        const Place place = face.origin + std::int64_t(face.sign) * Place(step[0], step[1]);
+        Sample sample{face.face, dvec2(place) / std::ldexp(1.0, face.depth), {}};
+        sample.frame.p = dvec3(positions_[vertex_]);
+        return sample;
+    }
+    return {-1, dvec2(0), {}};
 }
 
 } // namespace relief

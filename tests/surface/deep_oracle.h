@@ -9,8 +9,12 @@
 
 namespace relief {
 
+/// Computes with as many digits as the processor has, since tangents are differences of points that lie close together.
 class DeepOracle {
 public:
+    using Real = long double;
+    using RealPoint = glm::vec<3, Real>;
+
     /// Follows a vertex of the cage.
     DeepOracle(const Cage& cage, Scheme scheme, std::uint32_t vertex);
 
@@ -25,12 +29,15 @@ public:
     };
     /// The regular points inside faces near the vertex: some steps of 2^-level away.
     [[nodiscard]] std::vector<Sample> samples() const;
+    /// The vertex itself, as one of its faces has it: only `p`, which is the limit point once it stays.
+    [[nodiscard]] Sample vertex() const;
 
 private:
+    using Place = glm::vec<2, std::int64_t>;
     struct Face {
         std::vector<int> vertices;
         int face = -1;   ///< OpenSubdiv's, once it has one
-        ivec2 origin{0}; ///< of its corner 0, in steps of 2^-depth
+        Place origin{0}; ///< of its corner 0, in steps of 2^-depth
         int sign = 1;    ///< -1 in turned triangles
         int depth = 0;   ///< levels below OpenSubdiv's face
     };
@@ -39,10 +46,10 @@ private:
     void keepNear();
 
     int sideCount_, level_ = 0, vertex_;
-    std::vector<dvec3> positions_;
+    std::vector<RealPoint> positions_;
     std::vector<Face> faces_;
-    std::map<EdgeKey, double> sharpness_; ///< of sharp edges; boundary edges are infinitely sharp
-    std::map<int, double> vertexSharpness_;
+    std::map<EdgeKey, Real> sharpness_; ///< of sharp edges; boundary edges are infinitely sharp
+    std::map<int, Real> vertexSharpness_;
     std::set<EdgeKey> boundary_;
 };
 
