@@ -125,6 +125,12 @@ void writePictures(FrameMaker& maker, const AnimateArgs& args, Report& report, c
 /// Writes the posed cage itself, for which no device is needed.
 void writeCache(const AnimateArgs& args, Report& report, const Warn& warn) {
     const MotionDesc& motion = args.object().motion;
+    if (lowerExtension(args.object().cage) == ".exr")
+        fail(
+            Failure::usage,
+            "{}: a point cache holds the vertices of a cage file, which a geometry image is not; relief export makes a "
+            "mesh of it",
+            args.object().cage);
     const Cage cage = readCage(args.object().cage, warn);
     const std::unique_ptr<Animation> animation = loadAnimation(motion, cage, warn);
     if (!animation)

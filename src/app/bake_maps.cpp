@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/files_together.h"
 #include "displacement/map_origin.h"
 
 namespace relief::app {
@@ -15,14 +16,6 @@ namespace {
 std::string nameFile(const std::string& path, const ivec2& tile) {
     const std::optional<TilePattern> pattern = findTilePattern(path);
     return pattern ? pattern->before + nameTile(*pattern, tile) + pattern->after : path;
-}
-
-/// Writes a picture; into an .exr with what a reader should know of it.
-void writeMap(const std::string& path, const Image& image, SampleType sample, const MapOrigin& origin) {
-    if (lowerExtension(path) == ".exr")
-        writeImage(path, image, sample, toAttributes(origin));
-    else
-        writeImage(path, image, sample);
 }
 
 void writeVoids(const BakeArgs& args, const BakedHeights& baked, const ivec2& tile) {
@@ -53,8 +46,8 @@ void writeLayers(const BakeArgs& args, BakedHeights& baked, const Cage& cage, co
         if (layer == SculptLayer::vector) mapEach([&](double x, int) { return coordinates.unit * x; });
         if (layer == SculptLayer::curvature) mapEach([&](double x, int) { return x / coordinates.unit; });
         const bool isExr = lowerExtension(path) == ".exr";
-        writeMap(nameFile(path, tile), image, isExr || hasUnit(layer) ? SampleType::real : SampleType::uint16,
-                 {.topology = hashTopology(cage)});
+        writeImage(nameFile(path, tile), image, isExr || hasUnit(layer) ? SampleType::real : SampleType::uint16,
+                   toAttributes({.topology = hashTopology(cage)}));
         image = {};
     }
 }
@@ -113,7 +106,7 @@ HeightMap storeHeights(const BakeArgs& args, const BakePair& pair, std::vector<B
     for (BakedTile& tile : tiles) {
         clippedCount += encodeHeights(tile.heights, pair.unit, sample, origin);
         Image image{args.size.x, args.size.y, 1, std::move(tile.heights)};
-        writeMap(nameFile(args.target, tile.place), image, sample, origin);
+        writeImage(nameFile(args.target, tile.place), image, sample, toAttributes(origin));
         maps.push_back(
             makeHeightMap(image.width, image.height, std::move(image.texels), origin.mid, origin.scale, wrap));
         places.push_back(tile.place);
@@ -225,11 +218,23 @@ HeightMap bakeFaces(const BakeArgs& args, const BakePair& pair, const BakeOption
     const BakedHeights baked = bakeHeights(pair.reference, pair.sculpt, texels, options);
     addCounts(report.baked, baked);
     if (baked.texelCount == 0) fail(Failure::input, "{}: all of its faces are holes", args.object.cage);
-    HeightMap map = makeFaceMap(pair.object.surface, texels.segments(), [&](int face, const dvec2& uv) {
-        return double(baked.heights[texels.texelAt(face, uv)]);
-    });
-    map.topology = hashTopology(pair.object.cage);
-    map.scale = pair.unit;
+    const auto mapOf = [&](double scale, const auto& valueAt) {
+        HeightMap map = makeFaceMap(pair.object.surface, texels.segments(), [&](int face, const dvec2& uv) {
+            return double(valueAt(texels.texelAt(face, uv)));
+        });
+        map.topology = hashTopology(pair.object.cage);
+        map.scale = scale;
+        return map;
+    };
+    // The mask first, so that both maps need not be there at a time.
+    if (!args.voids.empty()) {
+        const auto isMissed = [&](std::uint32_t texel) { return baked.states[texel] == TexelState::missed ? 1 : 0; };
+        saveFaceMap(args.voids, mapOf(1, isMissed));
+    }
+    // Heights in cage units: rounded as the file holds them.
+    const bool isHalf = chooseHeightSample(args) == SampleType::half;
+    HeightMap map = mapOf(1, [&](std::uint32_t texel) { return pair.unit * double(baked.heights[texel]); });
+    if (isHalf) map = encode(map, MapFormat::half).decoded;
     saveFaceMap(args.target, map);
     return map;
 }
@@ -247,14 +252,17 @@ HeightMap bakeMaps(const BakeArgs& args, const BakePair& pair, BakeReport& repor
         options.layers.occlusionLines = std::max(1, args.occlusionLines / args.sampleCount);
         options.layers.occlusionReach = pair.sculptBox.diagonal();
     }
+    // All files of one run go together: a full disk leaves those that were there.
+    FilesTogether files;
     HeightMap map = args.perFace ? bakeFaces(args, pair, options, report) : bakePictures(args, pair, options, report);
+    files.takePlaces();
     const Warn warn = makeWarn(args.output.isQuiet);
     const BakedHeights& baked = report.baked;
     if (baked.voidCount > 0)
         warn(fmt::format("{}: {} of {} texels are voids: their lines miss {}; they are filled from around", args.target,
                          baked.voidCount, baked.texelCount, args.sculpt));
     if (baked.insideCount > 0)
-        warn(fmt::format("{}: {} of {} lines begin on the surface, because the cage lies inside of it there",
+        warn(fmt::format("{}: {} of {} lines look both ways, because the cage lies inside of the surface there",
                          args.smoothCage ? "--smooth-cage" : args.lineCage, baked.insideCount, baked.sampleCount));
     report.isBaked = true;
     return map;

@@ -27,7 +27,7 @@ void parseReach(const std::string& words, BakeArgs& args) {
     for (const std::optional<Distance>& distance : {front, back})
         if (!distance || !(distance->value >= 0) || !std::isfinite(distance->value))
             throw CLI::ValidationError("--max-distance", words + " is no distance, or two with a comma between them");
-    args.front = *front, args.back = *back;
+    args.front = *front, args.back = *back, args.hasReach = true;
 }
 
 void checkLayer(const LayerFile& file, const std::vector<std::string>& inputs) {
@@ -58,9 +58,10 @@ void addLines(CLI::App& app, BakeArgs& args) {
            app.add_option("--cage", args.lineCage,
                           "the cage with its vertices moved outwards: lines begin as high as its surface is and look "
                           "inwards, and the first hit is the height: .obj .gltf .glb"));
-    app.add_flag("--smooth-cage", args.smoothCage,
-                 "as --cage with the cage itself, its vertices moved along normals that are smooth across sharp edges, "
-                 "as far as --max-distance")
+    app.add_flag(
+           "--smooth-cage", args.smoothCage,
+           "as --cage with the cage itself, its vertices moved along normals that are smooth across sharp edges, "
+           "as far as --max-distance (default: half as far again as the sculpt is found to lie above the surface)")
         ->group(group);
     app.add_flag("--drop-behind", args.dropsBehind,
                  "a hit behind the back of another sheet is none: its texel is a void")
@@ -73,7 +74,9 @@ void addLines(CLI::App& app, BakeArgs& args) {
            addEnum(app, "--format", args.sample, kHeightFormats,
                    "how heights are written (default: float, unorm16 in .png)"));
     listIn(group, "PICTURE",
-           app.add_option("--voids", args.voids, "picture to write of the texels whose lines miss: .png .tif .exr"));
+           app.add_option("--voids", args.voids,
+                          "picture to write of the texels whose lines miss: .png .tif .exr; with --per-face a map per "
+                          "face, .exr"));
 }
 
 /// Maps per face and their size.
@@ -112,18 +115,19 @@ void checkKind(const BakeArgs& args) {
                 fail(Failure::usage, "{} and {}: all maps are sets of tiles, or none is", args.target, path);
         return;
     }
-    // Per face: the size comes from the face, and heights alone are written, as floats.
+    // Per face: the size comes from the face, and what is written are numbers of one kind, in cage units.
     if (args.checksOnly) fail(Failure::usage, "--check reads from the map's header whether it is one per face");
     if (args.faceSize && args.texelSize) fail(Failure::usage, "--face-size and --texel-size: give one of them");
     if (args.faceSize && !std::has_single_bit(unsigned(*args.faceSize)))
         fail(Failure::usage, "--face-size {}: a face has 1, 2, 4, ... 4096 segments per side", *args.faceSize);
     if (args.texelSize && !(args.texelSize->value > 0)) fail(Failure::usage, "--texel-size 0 has no length");
-    if (!listLayers(args).empty() || !args.voids.empty())
-        fail(Failure::usage, "{}: --per-face makes heights alone; other maps lie over texture coordinates",
-             args.voids.empty() ? listLayers(args).front().path : args.voids);
-    if (lowerExtension(args.target) != ".exr" || args.sample.value_or(SampleType::real) != SampleType::real ||
-        findTilePattern(args.target))
-        fail(Failure::usage, "{}: a map per face is one .exr of floats", args.target);
+    if (!listLayers(args).empty())
+        fail(Failure::usage,
+             "{}: --per-face makes heights and --voids alone; normals and other maps lie over texture coordinates",
+             listLayers(args).front().path);
+    for (const std::string& path : {args.target, args.voids})
+        if (!path.empty() && (lowerExtension(path) != ".exr" || findTilePattern(path)))
+            fail(Failure::usage, "{}: a map per face is one .exr of floats or halves", path);
     if (args.object.height.mid || args.object.height.scale || args.object.height.wrap)
         fail(Failure::usage, "--per-face has heights in cage units that do not repeat; omit --mid, --scale and --wrap");
 }

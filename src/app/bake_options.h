@@ -32,11 +32,12 @@ struct BakeArgs {
     int sampleCount = 4;
     double margin = 2;
     Distance front{0.05, true}, back{0.05, true}, tolerance{0.001, true};
+    bool hasReach = false; ///< `front` and `back` are asked for
     bool perFace = false;
     std::optional<int> faceSize;       ///< per face: segments of a side
     std::optional<Distance> texelSize; ///< per face: length of a segment
     std::string lineCage;              ///< path of the cage that lines begin on
-    bool smoothCage = false;           ///< lines begin on the cage itself, inflated by `front`
+    bool smoothCage = false;           ///< lines begin on the cage itself, inflated
     bool checksOnly = false, dropsBehind = false;
     Output output;
 

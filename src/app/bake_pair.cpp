@@ -1,5 +1,6 @@
 // The cage and the sculpt that `relief bake` is called with.
 #include <algorithm>
+#include <cmath>
 
 #include "app/bake_maps.h"
 
@@ -62,9 +63,27 @@ LoadedObject loadObject(const BakeArgs& args, const Warn& warn) {
     return object;
 }
 
+/// How far vertices move for a cage that nobody has given a distance for: past the sculpt, as some thousand lines that
+/// begin on the surface find it, and no farther, because cages that are inflated more begin lines above other sheets.
+double chooseInflation(const ReferenceSurface& reference, const MeasuredSurface& sculpt, const LineSearch& lines) {
+    constexpr int kLines = 20'000;
+    constexpr double kMore = 1.5; // lines miss the tips
+    const SculptLines along(reference, sculpt, lines);
+    const int perSide = std::clamp(int(std::ceil(std::sqrt(double(kLines) / reference.faceCount()))), 2, 32);
+    double highest = 0;
+    for (int face = 0; face < reference.faceCount(); ++face)
+        for (int i = 0; i < perSide * perSide && !reference.isHole(face); ++i) {
+            const dvec2 uv = (dvec2(i % perSide, i / perSide) + 0.5) / double(perSide);
+            if (reference.sideCount() == 3 && uv.x + uv.y > 1) continue;
+            if (const std::optional<LineHit> hit = along.find(along.lineAt(face, uv)))
+                highest = std::max(highest, hit->height);
+        }
+    return std::min(kMore * highest, lines.reach.front);
+}
+
 /// The cage that lines begin on, in the coordinates of the object's.
-std::optional<Cage> makeLineCage(const BakeArgs& args, const LoadedObject& object, double front, const Warn& warn) {
-    if (args.smoothCage) return inflateCage(object.cage, front);
+std::optional<Cage> makeLineCage(const BakeArgs& args, const LoadedObject& object, double inflation, const Warn& warn) {
+    if (args.smoothCage) return inflateCage(object.cage, inflation);
     if (args.lineCage.empty()) return {};
     ObjectDesc desc = args.object;
     desc.cage = args.lineCage, desc.height = {}, desc.motion = {};
@@ -91,12 +110,21 @@ BakePair::BakePair(const BakeArgs& args, const Warn& warn)
     unit = object.cage.coordinates.unit, diagonal = sculptBox.diagonal() * unit;
     lines.reach = {args.front.cageUnits(diagonal) / unit, args.back.cageUnits(diagonal) / unit};
     lines.directions = &directions;
-    if (const std::optional<Cage> cage = makeLineCage(args, object, lines.reach.front, warn)) {
+    const auto chooseSide = [&] {
+        lines.facing = chooseFacing(args, findSides(reference, sculpt, lines), summarize(object.cage).bounds,
+                                    object.cage.coordinates.toWorld(sculptBox), warn);
+    };
+    double inflation = lines.reach.front;
+    const bool measuresInflation = args.smoothCage && !args.hasReach;
+    if (measuresInflation) {
+        chooseSide();
+        inflation = chooseInflation(reference, sculpt, lines);
+    }
+    if (const std::optional<Cage> cage = makeLineCage(args, object, inflation, warn)) {
         lineCage.emplace(*cage, object.options);
         lines.cage = &*lineCage;
     }
-    lines.facing = chooseFacing(args, findSides(reference, sculpt, lines), summarize(object.cage).bounds,
-                                object.cage.coordinates.toWorld(sculptBox), warn);
+    if (!measuresInflation) chooseSide();
 }
 
 MeasuredSurface BakePair::loadSculpt(const BakeArgs& args, const Warn& warn) {

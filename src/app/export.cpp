@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 
@@ -21,6 +23,7 @@ struct ExportArgs {
     Output output;
     std::string target, device;
     bool weldsPositions = false;
+    std::string unusedByImages; ///< an option that is given and that geometry images do not have
 };
 
 /// A mesh and what is reported of it, after everything that made it is freed.
@@ -31,14 +34,26 @@ struct Exported {
     double loadSeconds = 0, surfaceSeconds = 0, rateMs = 0, diceMs = 0, writeSeconds = 0;
 };
 
+/// The first option on the command line that the triangles of a geometry image do not listen to; empty where there is
+/// none.
+std::string findUnusedOption(const CLI::App& app) {
+    constexpr std::array kUsed{"--help",  "--output",  "--mip",      "--weld-positions", "--json",
+                               "--quiet", "--verbose", "--progress", "--device"};
+    for (const CLI::Option* option : app.get_options())
+        if (option->count() > 0 && !option->get_positional() &&
+            std::ranges::none_of(kUsed, [&](const char* name) { return option->check_name(name); }))
+            return option->get_name();
+    return "";
+}
+
 /// The mesh of a geometry image, with each point once: no device is needed for it.
 Exported sew(const ExportArgs& args) {
     const double start = secondsNow();
     const ObjectDesc& desc = args.scene.object;
-    if (desc.subdivision || !desc.height.path.empty() || !desc.height.function.empty() || !desc.motion.isStill() ||
-        desc.weld || desc.uvSet != 0 || args.triangles.rate)
+    if (!args.unusedByImages.empty())
         fail(Failure::usage,
-             "{}: the triangles of a geometry image are exported as they are, without heights and poses", desc.cage);
+             "{}: {} is for cages; the triangles of a geometry image are exported as they are, those of --mip",
+             desc.cage, args.unusedByImages);
     const GeometryImage image = readGeometryImage(desc.cage);
     if (desc.mip.value_or(0) >= image.mipCount())
         fail(Failure::usage, "{}: --mip {} is none of its mips, which are 0 to {}", desc.cage, *desc.mip,
@@ -157,7 +172,10 @@ Run addExport(CLI::App& app) {
                "examples:\n"
                "  relief export cage.obj --height map.exr --rate 32 -o dense.ply\n"
                "  relief export cage.obj --height map.exr --edge-pixels 1 --size 3840,2160 -o hero.glb");
-    return [args] { return exportMesh(*args); };
+    return [args, &app] {
+        args->unusedByImages = findUnusedOption(app);
+        return exportMesh(*args);
+    };
 }
 
 } // namespace relief::app

@@ -15,6 +15,7 @@
 #include "app/picture_options.h"
 #include "app/units.h"
 #include "base/clock.h"
+#include "base/files_together.h"
 
 namespace relief::app {
 namespace {
@@ -35,10 +36,11 @@ struct GeometryImageFacts {
     int size = 0;
     std::size_t vertices = 0, triangles = 0;
     std::vector<std::uint64_t> openEdges; ///< per mip
+    std::uint64_t turnedCount = 0;        ///< triangles that look against the normals at their corners
     SurfaceDistance distance;             ///< from the image to the source, and back
     double unit = 1, diagonal = 1;        ///< of the source's box, in the world
     std::optional<double> tolerance;      ///< in the world
-    double sourceSeconds = 0, spreadSeconds = 0, sampleSeconds = 0, measureSeconds = 0;
+    double sourceSeconds = 0, spreadSeconds = 0, sampleSeconds = 0, measureSeconds = 0, writeSeconds = 0;
     std::uint64_t bytes = 0;
 
     /// The larger root mean square of both directions, in the world.
@@ -46,25 +48,43 @@ struct GeometryImageFacts {
     [[nodiscard]] bool passes() const { return !tolerance || rms() <= *tolerance; }
 };
 
-/// The rate at which a surface has twice as many triangles as the image has quads, within what is spread quickly.
-int chooseRate(const GeometryImageArgs& args, std::size_t faceCount) {
-    const double triangles = std::clamp(2.0 * args.size * args.size, 2e4, 2e5);
+/// What an image is made of: the mesh that is spread, and a finer one of the same surface, which samples are points of
+/// and which the image is measured against; empty where the mesh is all that there is.
+struct Source {
+    DenseMesh mesh, finer;
+
+    [[nodiscard]] const DenseMesh& finest() const { return finer.indices.empty() ? mesh : finer; }
+};
+
+/// The rate at which a surface has so many triangles.
+int chooseRate(double triangles, std::size_t faceCount) {
     const double perFace = triangles / double(std::max<std::size_t>(faceCount, 1));
     return int(std::clamp(std::ceil(std::sqrt(perFace / 2)), 1.0, 1024.0));
 }
 
-DenseMesh diceObject(const GeometryImageArgs& args, LoadedObject object, const Warn& warn) {
+/// Spread are twice as many triangles as the image has quads, within what takes seconds; the surface itself is diced
+/// into eight times as many, and into a million at most.
+Source diceObject(const GeometryImageArgs& args, LoadedObject object, const Warn& warn) {
     Device device({.name = args.device});
     measureFunction(device, object, args.object.height, {{object.time}}, warn);
     SurfaceModel model = makeSurfaceModel(device, object);
     keepRestPose(device, model, object, args.object.height.space);
-    const TriangleOptions triangles{.path = Path::dice,
-                                    .rate = args.rate.value_or(chooseRate(args, object.cage.faceCount()))};
-    const EdgeRates rates = EdgeRater(device).rates(model, triangles, {});
-    DenseMesh mesh = Dicer(device).diceToHost(model, rates, {.normal = triangles.normal});
-    mesh.coordinates = object.coordinates();
+    const double wanted = std::clamp(2.0 * args.size * args.size, 2e4, 2e5);
+    const std::size_t faceCount = object.cage.faceCount();
+    const int rate = args.rate.value_or(chooseRate(wanted, faceCount));
+    const int finerRate = chooseRate(std::min(8 * wanted, 1e6), faceCount);
+    EdgeRater rater(device);
+    Dicer dicer(device);
+    const auto dice = [&](int segments) {
+        const TriangleOptions triangles{.path = Path::dice, .rate = segments};
+        DenseMesh mesh = dicer.diceToHost(model, rater.rates(model, triangles, {}), {.normal = triangles.normal});
+        mesh.coordinates = object.coordinates();
+        return mesh;
+    };
+    Source source{.mesh = dice(rate), .finer = {}};
+    if (!args.rate && finerRate > rate) source.finer = dice(finerRate);
     checkValidation(device);
-    return mesh;
+    return source;
 }
 
 /// Turns triangles of a file so that all are wound alike.
@@ -78,7 +98,7 @@ DenseMesh windSource(DenseMesh mesh, const std::string& path, const Warn& warn) 
     return mesh;
 }
 
-DenseMesh loadSource(const GeometryImageArgs& args, const Warn& warn) {
+Source loadSource(const GeometryImageArgs& args, const Warn& warn) {
     const std::string& path = args.object.cage;
     if (isTriangleFile(path)) {
         const ObjectDesc& desc = args.object;
@@ -89,13 +109,14 @@ DenseMesh loadSource(const GeometryImageArgs& args, const Warn& warn) {
                  "surfaces is for cages",
                  path);
         TriangleMesh read = readTriangles(path);
-        return windSource({.positions = std::move(read.positions),
-                           .indices = std::move(read.indices),
-                           .coordinates = read.coordinates},
-                          path, warn);
+        return {windSource({.positions = std::move(read.positions),
+                            .indices = std::move(read.indices),
+                            .coordinates = read.coordinates},
+                           path, warn),
+                {}};
     }
     LoadedObject object = load(args.object, CageState::posed, warn);
-    if (object.dense) return windSource(std::move(*object.dense), path, warn);
+    if (object.dense) return {windSource(std::move(*object.dense), path, warn), {}};
     return diceObject(args, std::move(object), warn);
 }
 
@@ -107,9 +128,9 @@ void writeNormals(const std::string& path, const GeometryImage& image) {
     writeImage(path, picture, SampleType::uint8);
 }
 
-/// Measures the file as it was written against the source.
-void measure(const GeometryImageArgs& args, const DenseMesh& source, GeometryImageFacts& facts) {
-    const GeometryImage image = readGeometryImage(args.target);
+/// Measures the image, as a file will hold it, against the source, whose coordinates are those of `place`.
+void measure(const GeometryImage& image, const MeasuredSurface& original, const Coordinates& place,
+             GeometryImageFacts& facts) {
     for (int mip = 0; mip < image.mipCount(); ++mip) {
         const MeshFaults faults = findFaults(toMesh(image, mip).indices);
         RELIEF_CHECK(faults.otherEdges == 0u);
@@ -117,9 +138,9 @@ void measure(const GeometryImageArgs& args, const DenseMesh& source, GeometryIma
     }
     DenseMesh mesh = toMesh(image);
     facts.size = image.size, facts.vertices = mesh.positions.size(), facts.triangles = mesh.indices.size() / 3;
-    for (vec3& p : mesh.positions) p = vec3(source.coordinates.toLocal(image.coordinates.toWorld(dvec3(p))));
-    const MeasuredSurface made({mesh.positions, mesh.indices}), original({source.positions, source.indices});
-    facts.distance = measureDistance(made, original);
+    facts.turnedCount = countTurned(mesh);
+    for (vec3& p : mesh.positions) p = vec3(place.toLocal(image.coordinates.toWorld(dvec3(p))));
+    facts.distance = measureDistance(MeasuredSurface({mesh.positions, mesh.indices}), original);
 }
 
 std::string toText(const GeometryImageArgs& args, const GeometryImageFacts& facts) {
@@ -136,16 +157,18 @@ std::string toText(const GeometryImageArgs& args, const GeometryImageFacts& fact
     text += fmt::format("{:<18} {} vertices, {} triangles, {} open edges{}\n", "sewn", facts.vertices, facts.triangles,
                         facts.openEdges.front(),
                         spread.boundaryCount == 0 ? " at every mip" : ", all of them on boundaries of the source");
+    text += fmt::format("{:<18} {} triangles ({:.2f} %) look against the normals of their samples\n", "turned over",
+                        facts.turnedCount, 100 * double(facts.turnedCount) / double(facts.triangles));
     text += describeDistance("image to source", facts.distance.forth, facts.unit, facts.diagonal);
     text += describeDistance("source to image", facts.distance.back, facts.unit, facts.diagonal);
     if (facts.tolerance)
         text += fmt::format("{:<18} RMS {:.4g}, tolerance {:.4g}\n", facts.passes() ? "PASS" : "FAIL", facts.rms(),
                             *facts.tolerance);
     if (args.output.isVerbose)
-        text +=
-            fmt::format("source {:.0f} ms, spreading {:.0f} ms, sampling and writing {:.0f} ms, measuring {:.0f} ms\n",
-                        1e3 * facts.sourceSeconds, 1e3 * facts.spreadSeconds, 1e3 * facts.sampleSeconds,
-                        1e3 * facts.measureSeconds);
+        text += fmt::format(
+            "source {:.0f} ms, spreading {:.0f} ms, sampling {:.0f} ms, measuring {:.0f} ms, writing {:.0f} ms\n",
+            1e3 * facts.sourceSeconds, 1e3 * facts.spreadSeconds, 1e3 * facts.sampleSeconds, 1e3 * facts.measureSeconds,
+            1e3 * facts.writeSeconds);
     return text;
 }
 
@@ -165,6 +188,7 @@ nlohmann::json toJson(const GeometryImageArgs& args, const GeometryImageFacts& f
                        {"vertices", facts.vertices},
                        {"triangles", facts.triangles},
                        {"open_edges", facts.openEdges},
+                       {"turned_triangles", facts.turnedCount},
                        {"bytes", facts.bytes},
                        {"diagonal", facts.diagonal},
                        {"image_to_source", distanceToJson(facts.distance.forth, facts.unit, facts.diagonal)},
@@ -174,7 +198,8 @@ nlohmann::json toJson(const GeometryImageArgs& args, const GeometryImageFacts& f
                        {"source_ms", 1e3 * facts.sourceSeconds},
                        {"spread_ms", 1e3 * facts.spreadSeconds},
                        {"sample_ms", 1e3 * facts.sampleSeconds},
-                       {"measure_ms", 1e3 * facts.measureSeconds}};
+                       {"measure_ms", 1e3 * facts.measureSeconds},
+                       {"write_ms", 1e3 * facts.writeSeconds}};
     if (facts.tolerance) all["tolerance"] = *facts.tolerance;
     return all;
 }
@@ -198,26 +223,41 @@ int makeImage(const GeometryImageArgs& args) {
     // The source.
     const Warn warn = makeWarn(args.output.isQuiet);
     GeometryImageFacts facts;
-    DenseMesh source;
+    Source source;
     facts.sourceSeconds = timed([&] { source = loadSource(args, warn); });
-    facts.unit = source.coordinates.unit;
-    facts.diagonal = computeBounds(source.positions).diagonal() * facts.unit;
+    const DenseMesh& finest = source.finest();
+    facts.unit = finest.coordinates.unit;
+    facts.diagonal = computeBounds(finest.positions).diagonal() * facts.unit;
     if (args.tolerance) facts.tolerance = args.tolerance->cageUnits(facts.diagonal);
     // The image, and how far it is from the source.
     std::optional<SpreadSurface> surface;
     facts.spreadSeconds = timed([&] {
-        surface.emplace(source, args.object.cage,
+        surface.emplace(source.mesh, args.object.cage,
                         GeometryImageOptions{.size = args.size, .progress = args.output.progress});
     });
     facts.spread = surface->report();
+    const SampleType sample = args.isHalf ? SampleType::half : SampleType::real;
+    const MeasuredSurface original({finest.positions, finest.indices});
+    GeometryImage image;
     facts.sampleSeconds = timed([&] {
-        const GeometryImage image = surface->sample(args.size);
-        writeGeometryImage(args.target, image, args.isHalf ? SampleType::half : SampleType::real);
-        if (!args.picture.empty()) writeNormals(args.picture, image);
+        SpreadSurface::Settle settle;
+        if (&finest == &source.finer)
+            settle = [&](dvec3& position, dvec3& normal) {
+                const NearestPoint nearest = original.nearest(position);
+                const dvec3 there = normalAt(finest, nearest);
+                if (glm::dot(there, normal) > 0) position = nearest.point, normal = there; // not through a thin sheet
+            };
+        image = surface->sample(args.size, settle);
     });
     surface.reset();
+    facts.measureSeconds = timed([&] { measure(roundSamples(image, sample), original, finest.coordinates, facts); });
+    facts.writeSeconds = timed([&] {
+        FilesTogether files;
+        writeGeometryImage(args.target, image, sample);
+        if (!args.picture.empty()) writeNormals(args.picture, image);
+        files.takePlaces();
+    });
     facts.bytes = std::filesystem::file_size(args.target);
-    facts.measureSeconds = timed([&] { measure(args, source, facts); });
     if (args.output.isJson)
         printJson(toJson(args, facts));
     else if (!args.output.isQuiet)
@@ -244,8 +284,9 @@ Run addGeometryImage(CLI::App& app) {
             ->check(CLI::Range(17, kLargestGeometryImage)));
     listIn(group, "N",
            app.add_option("--rate", args->rate,
-                          "segments per edge that a cage is diced with before it is spread (default: twice as many "
-                          "triangles as the image has samples, 20,000 to 200,000)")
+                          "segments per edge that a cage is diced with before it is spread, and of what is measured "
+                          "(default: twice as many triangles as the image has samples, 20,000 to 200,000; samples are "
+                          "then points of a dicing into eight times as many)")
                ->check(CLI::Range(1, 1024)));
     listIn(group, "", app.add_flag("--half", args->isHalf, "16-bit floats, relative to the box around the surface"));
     listIn(group, "D",

@@ -104,11 +104,11 @@ SculptLines::Line SculptLines::lineAt(int face, const dvec2& uv) const {
 }
 
 std::optional<LineHit> SculptLines::find(const Line& line, Facing facing) const {
-    if (search_.cage == nullptr) return sculpt_.nearestOnLine(line.frame.p, line.direction, search_.reach, facing);
-    const double start = std::max(0.0, line.start);
-    std::optional<LineHit> hit = sculpt_.nearestOnLine(line.frame.p + start * line.direction, line.direction,
-                                                       {.front = 0, .back = start + search_.reach.back}, facing);
-    if (hit) hit->height += start;
+    if (search_.cage == nullptr || line.start < 0)
+        return sculpt_.nearestOnLine(line.frame.p, line.direction, search_.reach, facing);
+    std::optional<LineHit> hit = sculpt_.nearestOnLine(line.frame.p + line.start * line.direction, line.direction,
+                                                       {.front = 0, .back = line.start + search_.reach.back}, facing);
+    if (hit) hit->height += line.start;
     return hit;
 }
 

@@ -41,7 +41,8 @@ struct LineSearch {
     LineReach reach;               ///< along the direction of displacement and against it
     Facing facing = Facing::front; ///< of the triangles that count
     /// Not null: lines begin as high above the surface as the same point (face,u,v) of this one lies above it, and look
-    /// inwards from there; the first hit counts.
+    /// inwards from there; the first hit counts. Where it lies inside of the surface, as inflated cages do at ends that
+    /// are thinner than they move, the nearest hit on both sides does.
     const ReferenceSurface* cage = nullptr;
     const DisplacementDirections* directions = nullptr; ///< null: the limit normals
 };

@@ -1,5 +1,6 @@
 // Output files, written whole or not at all.
 #include "base/base.h"
+#include "base/files_together.h"
 
 #include <atomic>
 #include <cerrno>
@@ -58,12 +59,17 @@ public:
     explicit NewFile(fs::path target);
     NewFile(const NewFile&) = delete;
     NewFile& operator=(const NewFile&) = delete;
-    ~NewFile() { close(file_); }
+    ~NewFile() {
+        if (file_ >= 0) close(file_);
+    }
 
     /// The name by which this process and its children open it. It is not the file's own name even where it has one:
     /// once an interrupt has removed that, no child can create it again.
     [[nodiscard]] std::string path() const { return hasDescriptorNames() ? descriptorName() : name_->path(); }
 
+    /// Gives it a name beside the target, unless it has one, and closes it.
+    void takeName();
+    /// Renames it to the target.
     void takePlace();
 
 private:
@@ -121,15 +127,24 @@ void NewFile::takePermissions() const {
     [[maybe_unused]] const int modeError = fchmod(file_, old.st_mode & 0777);
 }
 
-void NewFile::takePlace() {
+void NewFile::takeName() {
     if (!name_)
         name_.emplace([&] {
             return makeNamed([&](const std::string& name) {
                 return linkat(AT_FDCWD, descriptorName().c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
             });
         });
+    if (file_ >= 0) close(std::exchange(file_, -1));
+}
+
+void NewFile::takePlace() {
+    takeName();
     if (std::rename(name_->path().c_str(), target_.c_str()) != 0) failToWrite(target_.string(), errno);
 }
+
+/// What waits on this thread, while there is a FilesTogether.
+thread_local std::vector<std::unique_ptr<NewFile>> waitingFiles;
+thread_local bool filesWait = false;
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -138,9 +153,28 @@ struct CloseFile {
 } // namespace
 
 void writeWhole(const std::string& path, const std::function<void(const std::string& temporary)>& write) {
-    NewFile file(resolveTarget(path));
-    write(file.path());
-    file.takePlace();
+    auto file = std::make_unique<NewFile>(resolveTarget(path));
+    write(file->path());
+    if (!filesWait) return file->takePlace();
+    constexpr std::size_t kMostOpen = 256; // a process may have a thousand files open
+    if (waitingFiles.size() >= kMostOpen) file->takeName();
+    waitingFiles.push_back(std::move(file));
+}
+
+FilesTogether::FilesTogether() {
+    RELIEF_CHECK(!filesWait);
+    filesWait = true;
+}
+
+FilesTogether::~FilesTogether() {
+    filesWait = false;
+    waitingFiles.clear();
+}
+
+void FilesTogether::takePlaces() {
+    for (const std::unique_ptr<NewFile>& file : waitingFiles) file->takeName();
+    for (const std::unique_ptr<NewFile>& file : waitingFiles) file->takePlace();
+    waitingFiles.clear();
 }
 
 void checkWritable(const std::string& path) { const NewFile attempt(resolveTarget(path)); }

@@ -42,14 +42,14 @@ void encode(const std::string& path, const Image& image, const ImageEncoding& en
 void writeImage(const std::string& path, const Image& image, SampleType sample, const std::string& compression) {
     const std::string format = chooseFormat(path, sample);
     if (format != "png") return encode(path, image, {format, sample, {}, compression, {}});
-    checkShape(path, image);
-    writeFile(path, encodePng(path, image, sample));
+    writeImage(path, image, sample, ImageAttributes());
 }
 
 void writeImage(const std::string& path, const Image& image, SampleType sample, const ImageAttributes& attributes) {
     const std::string format = chooseFormat(path, sample);
-    if (format != "openexr") fail(Failure::usage, "{}: this picture has text in its header; write .exr", path);
-    encode(path, image, {format, sample, {}, "", attributes});
+    if (format != "png") return encode(path, image, {format, sample, {}, "", attributes});
+    checkShape(path, image);
+    writeFile(path, encodePng(path, image, sample, attributes));
 }
 
 void writeImage(const std::string& path, const Image& image, const std::vector<ImageChannel>& channels,

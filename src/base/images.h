@@ -35,7 +35,7 @@ struct ImagePart {
     std::vector<std::string> channelNames;
 };
 
-/// Text that relief writes into the header of an EXR, by its name, which begins with kAttributePrefix.
+/// Text that relief writes into headers of pictures, by its name, which begins with kAttributePrefix: one line each.
 using ImageAttributes = std::map<std::string, std::string>;
 inline constexpr std::string_view kAttributePrefix = "relief:";
 
@@ -51,7 +51,7 @@ struct ImageInfo {
     std::string colorTag;         ///< what in the file says that its numbers are colors, for messages: "sRGB"; else ""
     std::vector<std::string> channelNames;
     std::vector<ImagePart> parts; ///< at least the first one; only pages of its size
-    ImageAttributes attributes;   ///< of an EXR: what relief has written into it
+    ImageAttributes attributes;   ///< of an EXR, TIFF or PNG: what relief has written into it
 
     /// True for samples whose texels are numbers with a unit of their own: 0 means no height.
     [[nodiscard]] bool hasUnit() const { return isFloat || isSigned; }
@@ -128,7 +128,7 @@ enum class SampleType { uint8, uint16, half, real };
 /// Failure::file when writing fails.
 void writeImage(const std::string& path, const Image& image, SampleType sample, const std::string& compression = "");
 
-/// Writes a .exr with text in its header. Throws as the other writeImage does.
+/// The same with text in its header. Throws as the other writeImage does.
 void writeImage(const std::string& path, const Image& image, SampleType sample, const ImageAttributes& attributes);
 
 /// One channel of an EXR: its name, which may hold the layer's ("N.X"), and half or real samples.

@@ -107,7 +107,8 @@ private:
 
 } // namespace
 
-std::string encodePng(const std::string& path, const Image& image, SampleType sample) {
+std::string encodePng(const std::string& path, const Image& image, SampleType sample,
+                      const ImageAttributes& attributes) {
     constexpr std::array<char, 5> kColorTypes = {0, 0, 4, 2, 6}; // by channels: grey, grey and alpha, RGB, RGBA
     if (image.channels >= int(kColorTypes.size()))
         fail(Failure::file, "{}: cannot be written as png: it holds up to 4 channels, not {}", path, image.channels);
@@ -129,6 +130,7 @@ std::string encodePng(const std::string& path, const Image& image, SampleType sa
 
     std::string file = "\x89PNG\r\n\x1a\n";
     appendChunk(file, "IHDR", header);
+    for (const auto& [name, text] : attributes) appendChunk(file, "tEXt", name + '\0' + text);
     const std::string pixels = deflater.finish();
     constexpr std::size_t kChunkBytes = 1 << 30; // a length has 31 bits
     for (std::size_t start = 0; start < pixels.size(); start += kChunkBytes)

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <glm/gtc/packing.hpp>
+
 #include "displacement/tile_set.h"
 
 namespace relief {
@@ -140,7 +142,8 @@ void saveFaceMap(const std::string& path, const HeightMap& map) {
                     float(map.scale * (double(node) - map.mid));
             }
     }
-    writeImage(path, image, SampleType::real,
+    const auto isHalf = [](float x) { return glm::unpackHalf1x16(glm::packHalf1x16(x)) == x; };
+    writeImage(path, image, std::ranges::all_of(image.texels, isHalf) ? SampleType::half : SampleType::real,
                ImageAttributes{{kFacesAttribute, digits}, {kTopologyAttribute, fmt::format("{:016x}", map.topology)}});
 }
 

@@ -181,7 +181,7 @@ struct FaceMapInfo {
 FaceMapInfo readFaceMapInfo(const ImageInfo& info, const std::string& name);
 
 /// Writes a map per face as one .exr of packed tiles, with its layout and HeightMap::topology in the header: heights in
-/// cage units. Throws as writeImage does.
+/// cage units, floats, or halves where these hold all of them. Throws as writeImage does.
 void saveFaceMap(const std::string& path, const HeightMap& map);
 
 } // namespace relief

@@ -13,7 +13,7 @@ struct MapOrigin {
     double mid = 0, scale = 1;  ///< h = scale * (value - mid), cage units
 };
 
-/// The text that writeImage() puts into the header of an EXR.
+/// The text that writeImage() puts into the header of a picture.
 ImageAttributes toAttributes(const MapOrigin& origin);
 
 /// Reads it back; empty for files without it, and where it is damaged.

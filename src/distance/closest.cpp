@@ -12,6 +12,7 @@ struct Query {
     dvec3 p;
     double squared; ///< of the shortest distance so far
     double slack;   ///< Embree searches around a rounded point
+    NearestPoint nearest;
 };
 
 /// A radius that, rounded to float, still contains everything that is nearer.
@@ -21,12 +22,25 @@ bool visitTriangle(RTCPointQueryFunctionArguments* arguments) {
     Query& query = *static_cast<Query*>(arguments->userPtr);
     const std::uint32_t* corner = &query.points->indices()[3 * std::size_t(arguments->primID)];
     const auto at = [&](std::uint32_t i) { return dvec3(query.points->positions()[corner[i]]); };
-    const dvec3 away = query.p - nearestInTriangle(query.p, at(0), at(1), at(2));
+    const dvec3 point = nearestInTriangle(query.p, at(0), at(1), at(2)), away = query.p - point;
     const double squared = glm::dot(away, away);
     if (squared >= query.squared) return false;
-    query.squared = squared;
+    query.squared = squared, query.nearest = {point, arguments->primID};
     arguments->query->radius = std::min(arguments->query->radius, radiusOf(std::sqrt(squared) + query.slack));
     return true;
+}
+
+/// Searches within a limit around a point.
+Query ask(RTCScene scene, const ClosestPoints& points, const dvec3& p, double limit) {
+    RTCPointQuery at{};
+    at.x = float(p.x), at.y = float(p.y), at.z = float(p.z);
+    const double slack = glm::length(p - dvec3(at.x, at.y, at.z));
+    at.radius = radiusOf(limit + slack);
+    Query query{&points, p, std::numeric_limits<double>::infinity(), slack, {}};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(scene, &at, &context, nullptr, &query);
+    return query;
 }
 
 /// A line, and the nearest hit so far. Embree calls back with each triangle that it meets.
@@ -189,15 +203,11 @@ bool ClosestPoints::isBlocked(const dvec3& p, const dvec3& direction, double rea
 }
 
 double ClosestPoints::distance(const dvec3& p, double limit) const {
-    RTCPointQuery at{};
-    at.x = float(p.x), at.y = float(p.y), at.z = float(p.z);
-    const double slack = glm::length(p - dvec3(at.x, at.y, at.z));
-    at.radius = radiusOf(limit + slack);
-    Query query{this, p, std::numeric_limits<double>::infinity(), slack};
-    RTCPointQueryContext context;
-    rtcInitPointQueryContext(&context);
-    rtcPointQuery(scene_.get(), &at, &context, nullptr, &query);
-    return std::sqrt(query.squared);
+    return std::sqrt(ask(scene_.get(), *this, p, limit).squared);
+}
+
+NearestPoint ClosestPoints::nearest(const dvec3& p) const {
+    return ask(scene_.get(), *this, p, std::numeric_limits<double>::infinity()).nearest;
 }
 
 } // namespace relief

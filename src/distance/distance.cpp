@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <future>
 #include <limits>
@@ -190,6 +191,7 @@ MeasuredSurface::MeasuredSurface(MeasuredSurface&&) noexcept = default;
 MeasuredSurface& MeasuredSurface::operator=(MeasuredSurface&&) noexcept = default;
 
 double MeasuredSurface::distance(const dvec3& p, double limit) const { return parts_->points.distance(p, limit); }
+NearestPoint MeasuredSurface::nearest(const dvec3& p) const { return parts_->points.nearest(p); }
 std::optional<LineHit> MeasuredSurface::nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,
                                                       Facing facing) const {
     return parts_->points.nearestOnLine(p, direction, reach, facing);
@@ -203,6 +205,20 @@ TriangleView MeasuredSurface::triangles() const {
 }
 std::size_t MeasuredSurface::sampleCount() const { return parts_->samples.points.size(); }
 double MeasuredSurface::coverage() const { return parts_->samples.coverage; }
+
+dvec3 normalAt(const DenseMesh& mesh, const NearestPoint& nearest) {
+    std::array<dvec3, 3> corners, normals;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = mesh.indices[3 * std::size_t(nearest.triangle) + k];
+        corners[k] = dvec3(mesh.positions[v]) - nearest.point, normals[k] = dvec3(mesh.normals[v]);
+    }
+    // Weights are areas of the triangles between the point and the opposite side.
+    const dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+    dvec3 sum(0);
+    for (std::size_t k = 0; k < 3; ++k)
+        sum += std::max(0.0, glm::dot(normal, glm::cross(corners[(k + 1) % 3], corners[(k + 2) % 3]))) * normals[k];
+    return sum != dvec3(0) ? sum : normals[0] + normals[1] + normals[2];
+}
 
 SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface& to) {
     const Samples& samples = from.parts_->samples;

@@ -38,6 +38,15 @@ struct LineHit {
     bool isBehindBack = false; ///< the line passes a triangle that may not be met before it comes there
 };
 
+/// The point of a surface that is nearest to another one.
+struct NearestPoint {
+    dvec3 point{0};
+    std::uint32_t triangle = 0;
+};
+
+/// The normal of a mesh at such a point, between those of the triangle's corners; not of unit length.
+dvec3 normalAt(const DenseMesh& mesh, const NearestPoint& nearest);
+
 /// A surface prepared for measuring: a tree for closest points and lines, and samples that cover it.
 ///
 /// Samples are the same in every run. A surface of fewer triangles than `sampleCount` has each triangle cut into n * n
@@ -59,6 +68,8 @@ public:
     /// the largest coordinate, because closest points are searched with floats.
     /// `limit`: a distance within which there is a point; the closer the quicker.
     [[nodiscard]] double distance(const dvec3& p, double limit = std::numeric_limits<double>::infinity()) const;
+    /// The nearest point itself, as exact as its distance.
+    [[nodiscard]] NearestPoint nearest(const dvec3& p) const;
     /// The hit nearest to `p` on the line through it along a unit `direction`; empty where there is none within reach.
     /// The triangle is found with floats, its height is computed in double precision. Several threads may ask.
     [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,

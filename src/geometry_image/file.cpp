@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include <glm/gtc/packing.hpp>
+
 #include "geometry_image/grid.h"
 
 namespace relief {
@@ -154,22 +156,32 @@ GeometryImage readGeometryImage(const std::string& path) {
     return image;
 }
 
-void writeGeometryImage(const std::string& path, const GeometryImage& image, SampleType sample) {
+GeometryImage roundSamples(const GeometryImage& image, SampleType sample) {
+    GeometryImage rounded = image;
+    if (sample != SampleType::half) return rounded;
+    rounded.coordinates = unitBoxOf(image);
+    const auto round = [](const vec3& v) {
+        return vec3(glm::unpackHalf1x16(glm::packHalf1x16(v.x)), glm::unpackHalf1x16(glm::packHalf1x16(v.y)),
+                    glm::unpackHalf1x16(glm::packHalf1x16(v.z)));
+    };
+    for (vec3& p : rounded.positions) p = round(vec3(rounded.coordinates.toLocal(image.coordinates.toWorld(dvec3(p)))));
+    for (vec3& n : rounded.normals) n = round(n);
+    return rounded;
+}
+
+void writeGeometryImage(const std::string& path, const GeometryImage& source, SampleType sample) {
     if (lowerExtension(path) != ".exr") fail(Failure::usage, "{}: a geometry image is written as .exr", path);
-    const Coordinates coordinates = sample == SampleType::half ? unitBoxOf(image) : image.coordinates;
+    const GeometryImage image = roundSamples(source, sample);
     Image picture{.width = image.size, .height = image.size, .channels = int(kChannels.size()), .texels = {}};
     picture.texels.reserve(6 * image.positions.size());
     for (std::size_t i = 0; i < image.positions.size(); ++i) {
-        const vec3 p = coordinates == image.coordinates
-                           ? image.positions[i]
-                           : vec3(coordinates.toLocal(image.coordinates.toWorld(dvec3(image.positions[i]))));
-        const vec3& n = image.normals[i];
+        const vec3 &p = image.positions[i], &n = image.normals[i];
         picture.texels.insert(picture.texels.end(), {p.x, p.y, p.z, n.x, n.y, n.z});
     }
     ImageAttributes attributes{{kVersionAttribute, kVersion}, {kSewingAttribute, toText(image.sewing)}};
-    const dvec3& origin = coordinates.origin;
-    if (!coordinates.isIdentity())
-        attributes[kOriginAttribute] = fmt::format("{} {} {} {}", origin.x, origin.y, origin.z, coordinates.unit);
+    const dvec3& origin = image.coordinates.origin;
+    if (!image.coordinates.isIdentity())
+        attributes[kOriginAttribute] = fmt::format("{} {} {} {}", origin.x, origin.y, origin.z, image.coordinates.unit);
     std::vector<ImageChannel> channels;
     channels.reserve(std::size(kChannels));
     for (const char* name : kChannels) channels.push_back({name, sample});

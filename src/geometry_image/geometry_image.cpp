@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMostExtremes = 20;    ///< paths that are added to a cut
 constexpr double kWorthAPath = 0.95; ///< a path stays where it takes the stretch below this share of itself
-constexpr int kStretchSteps = 24;
-constexpr int kSweeps = 40;
+constexpr int kStretchSteps = 1;     ///< what makes a start; relaxing goes the rest of the way
+constexpr int kRelaxingSteps = 60;
 
 /// Extends the cut through the points that the map over a disk stretches most, one after another, while that makes the
 /// stretch smaller (Gu et al. 2002, section 3.2).
@@ -64,8 +64,11 @@ void setSample(GeometryImage& image, std::size_t index, const SurfaceSample& sam
     image.normals[index] = length > 1e-12 ? vec3(sample.normal / length) : vec3(0, 0, 1);
 }
 
-/// The border's samples: each path once, so that its mate has the same bits.
-void sampleBorder(GeometryImage& image, const CutMesh& mesh, std::span<const BorderPath> paths) {
+using Settle = SpreadSurface::Settle;
+
+/// The border's samples: each path once, so that its mate has the same bits. `settle` makes the same of the same point,
+/// which nodes are several times.
+void sampleBorder(GeometryImage& image, const CutMesh& mesh, std::span<const BorderPath> paths, const Settle& settle) {
     const int scale = (image.size - 1) / image.sewing.sideSegments;
     std::vector<int> firsts;
     int at = image.sewing.first;
@@ -80,6 +83,7 @@ void sampleBorder(GeometryImage& image, const CutMesh& mesh, std::span<const Bor
             const auto atVertex = [&](std::uint32_t v) { sample = {mesh.positions[v], mesh.normals[v]}; };
             if (k == 0) atVertex(mesh.from(paths[p].halfEdges.front()));
             if (k == count) atVertex(mesh.to(paths[p].halfEdges.back()));
+            if (settle) settle(sample.position, sample.normal);
             setSample(image, borderSample(scale * firsts[p] + k, image.size), sample);
             if (mate != p) setSample(image, borderSample(scale * firsts[mate] + count - k, image.size), sample);
         }
@@ -130,7 +134,7 @@ SpreadSurface::SpreadSurface(const DenseMesh& mesh, const std::string& name, con
         if (parts.border.paths[p].mate > p) ++report.pathCount, report.cutLength += parts.border.paths[p].length;
     parts.map = spreadInside(cut, parts.border.disk, placeOnSquare(cut, parts.border), kStretchSteps);
     progress.advance();
-    relaxInside(cut, parts.border.disk, parts.map.st, kSweeps);
+    relaxInside(cut, parts.border.disk, parts.map.st, kRelaxingSteps);
     parts.map.stretch = measureStretch(cut, parts.border.disk, parts.map.st).total;
     report.stretch = parts.map.stretch, report.firstStretch = parts.map.firstStretch;
 }
@@ -142,7 +146,7 @@ SpreadSurface& SpreadSurface::operator=(SpreadSurface&&) noexcept = default;
 const GeometryImageReport& SpreadSurface::report() const { return parts_->report; }
 int SpreadSurface::sideSegments() const { return parts_->border.sewing.sideSegments; }
 
-GeometryImage SpreadSurface::sample(int size) const {
+GeometryImage SpreadSurface::sample(int size, const Settle& settle) const {
     const Parts& parts = *parts_;
     const int side = sideSegments();
     if (size < 2 || size > kLargestGeometryImage || (size - 1) % side != 0)
@@ -160,11 +164,12 @@ GeometryImage SpreadSurface::sample(int size) const {
     const auto times = unsigned((size - 1) / side);
     scaleSewing(int(times >> std::countr_zero(times)));
     // The border, then what is inside.
-    sampleBorder(image, parts.mesh, parts.border.paths);
-    const std::vector<SurfaceSample> inside = sampleGrid(parts.mesh, parts.border.disk, parts.map.st, size);
+    sampleBorder(image, parts.mesh, parts.border.paths, settle);
+    std::vector<SurfaceSample> inside = sampleGrid(parts.mesh, parts.border.disk, parts.map.st, size);
     for (int j = 1; j + 1 < size; ++j)
         for (int i = 1; i + 1 < size; ++i) {
             const std::size_t index = std::size_t(j) * std::size_t(size) + std::size_t(i);
+            if (settle) settle(inside[index].position, inside[index].normal);
             setSample(image, index, inside[index]);
         }
     // Mips whose border would fold into itself are none.

@@ -3,6 +3,7 @@
 // picture says which samples are the same.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -73,7 +74,11 @@ public:
 
     /// Samples the surface at a multiple of sideSegments() segments per side. Throws Failure::usage for another size,
     /// and Failure::input where the triangles of a mip cannot be sewn.
-    [[nodiscard]] GeometryImage sample(int size) const;
+    /// `settle` is called once for each point of the surface that is a sample or several, with its position and normal,
+    /// which it may change: where the mesh is coarser than the surface that it stands for, to a point of that. The
+    /// normal need not be of unit length.
+    using Settle = std::function<void(dvec3& position, dvec3& normal)>;
+    [[nodiscard]] GeometryImage sample(int size, const Settle& settle = {}) const;
     /// Segments along one side of the coarsest image that sews: (options.size - 1) / 2^k.
     [[nodiscard]] int sideSegments() const;
     [[nodiscard]] const GeometryImageReport& report() const;
@@ -104,6 +109,8 @@ struct MeshFaults {
     std::uint64_t degenerateTriangles = 0; ///< with a vertex twice
 };
 MeshFaults findFaults(std::span<const std::uint32_t> indices);
+/// Counts the triangles that look against the sum of the normals at their corners.
+std::uint64_t countTurned(const DenseMesh& mesh);
 
 // --- files --------------------------------------------------------------------------------------------------------
 
@@ -120,8 +127,12 @@ GeometryImage readGeometryImageInfo(const ImageInfo& info, const std::string& na
 /// are not finite, and samples that are sewn and differ.
 GeometryImage readGeometryImage(const std::string& path);
 
-/// Writes an .exr with channels X, Y, Z and NX, NY, NZ, of floats or halves, whole or not at all. Halves are relative
-/// to the box around the surface. Throws Failure::usage for another extension, Failure::file when writing fails.
-void writeGeometryImage(const std::string& path, const GeometryImage& image, SampleType sample = SampleType::real);
+/// The image as it comes back from a file of such samples, floats or halves: halves are relative to the box around the
+/// surface.
+GeometryImage roundSamples(const GeometryImage& image, SampleType sample);
+
+/// Writes an .exr with channels X, Y, Z and NX, NY, NZ, of floats or halves, whole or not at all. Throws Failure::usage
+/// for another extension, Failure::file when writing fails.
+void writeGeometryImage(const std::string& path, const GeometryImage& source, SampleType sample = SampleType::real);
 
 } // namespace relief

@@ -1,80 +1,213 @@
-// Moving the points inside of a spread disk one by one, to where the triangles around them are stretched least.
+// Moving the points inside of a spread disk, all of them at once, to where triangles are stretched and sheared least.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+
+#include <Eigen/Sparse>
 
 #include "geometry_image/spread.h"
 
 namespace relief {
 namespace {
 
-/// A triangle around a point p1 that moves: area * (|S_s|^2 + |S_t|^2), which is area * N / D^2 with
-///   N = |v|^2 |Q1|^2 + |u|^2 |Q2|^2 - 2 (u . v) (Q1 . Q2),  D = u x v,
-/// u = p2 - p1, v = p3 - p1 in the plane and Q1, Q2 the same on the surface.
-struct StarTriangle {
-    dvec2 p2, p3;
-    double q1q1 = 0, q2q2 = 0, q1q2 = 0, area = 0;
+constexpr double kShearWeight = 4;
 
-    /// Infinite where the triangle is turned over.
-    [[nodiscard]] double energyAt(const dvec2& p1, dvec2* gradient = nullptr) const {
-        const dvec2 u = p2 - p1, v = p3 - p1;
-        const double d = u.x * v.y - u.y * v.x;
-        if (!(d > 0)) return std::numeric_limits<double>::infinity();
-        const double n = glm::dot(v, v) * q1q1 + glm::dot(u, u) * q2q2 - 2 * glm::dot(u, v) * q1q2;
-        if (gradient != nullptr) {
-            const dvec2 dn = -2.0 * q1q1 * v - 2.0 * q2q2 * u + 2.0 * q1q2 * (u + v), dd(u.y - v.y, v.x - u.x);
-            *gradient += area * (dn / (d * d) - 2 * n / (d * d * d) * dd);
-        }
-        return area * n / (d * d);
-    }
+/// A triangle of the disk. With u = p2 - p1 and v = p3 - p1 in the plane, Q1 and Q2 the same on the surface and
+/// D = u x v, the surface runs along s and t by S_s = (Q1 v.y - Q2 u.y) / D and S_t = (Q2 u.x - Q1 v.x) / D.
+struct RelaxedTriangle {
+    std::array<std::uint32_t, 3> copies{};
+    double q1q1 = 0, q2q2 = 0, q1q2 = 0; ///< dot products
+    double area = 0;                     ///< of the surface
 };
 
-double energyOf(std::span<const StarTriangle> star, const dvec2& p, dvec2* gradient = nullptr) {
-    double sum = 0;
-    for (const StarTriangle& triangle : star) sum += triangle.energyAt(p, gradient);
-    return sum;
+/// The energy of a triangle and its derivatives with respect to u and v.
+struct TriangleEnergy {
+    double energy = std::numeric_limits<double>::infinity(); ///< where the triangle is turned over
+    double planeArea = 0;                                    ///< twice, as D
+    dvec2 du{0}, dv{0};
+};
+
+/// area * (|S_s|^2 + |S_t|^2 + kShearWeight |S_s| |S_t|). The first two terms are the L2 stretch of Sander et al. 2001.
+/// In the third, |S_s| |S_t| = |S_s x S_t| / sin(angle between them): where triangles are stretched along one direction
+/// more than across it, as on long arms, rows of samples that run along neither make needles, whose normals are any
+/// (Schwarz's lantern).
+TriangleEnergy energyOf(const RelaxedTriangle& t, const dvec2& u, const dvec2& v) {
+    TriangleEnergy result{.planeArea = u.x * v.y - u.y * v.x};
+    const double d = result.planeArea;
+    if (!(d > 0)) return result;
+    constexpr double kLeast = 1e-300;
+    const double alongS = std::max(kLeast, v.y * v.y * t.q1q1 + u.y * u.y * t.q2q2 - 2 * u.y * v.y * t.q1q2);
+    const double alongT = std::max(kLeast, v.x * v.x * t.q1q1 + u.x * u.x * t.q2q2 - 2 * u.x * v.x * t.q1q2);
+    const double product = std::sqrt(alongS * alongT), sum = alongS + alongT + kShearWeight * product;
+    const double byS = 1 + kShearWeight * alongT / (2 * product), byT = 1 + kShearWeight * alongS / (2 * product);
+    const double scale = t.area / (d * d), byD = -2 * scale * sum / d;
+    result.energy = scale * sum;
+    result.du = 2 * scale * dvec2(byT * (u.x * t.q2q2 - v.x * t.q1q2), byS * (u.y * t.q2q2 - v.y * t.q1q2)) +
+                byD * dvec2(v.y, -v.x);
+    result.dv = 2 * scale * dvec2(byT * (v.x * t.q1q1 - u.x * t.q1q2), byS * (v.y * t.q1q1 - u.y * t.q1q2)) +
+                byD * dvec2(-u.y, u.x);
+    return result;
 }
 
-/// Moves a point against the gradient, as far as that makes its energy smaller.
-dvec2 descend(std::span<const StarTriangle> star, const dvec2& p) {
-    dvec2 gradient(0);
-    const double energy = energyOf(star, p, &gradient);
-    const double slope = glm::length(gradient);
-    if (!std::isfinite(energy) || !(slope > 0) || !std::isfinite(slope)) return p;
-    double reach = 0;
-    for (const StarTriangle& triangle : star) reach = std::max(reach, glm::length(triangle.p2 - p));
-    constexpr int kHalvings = 10;
-    double step = 0.5 * reach;
-    for (int i = 0; i < kHalvings; ++i, step /= 2) {
-        const dvec2 moved = p - step / slope * gradient;
-        if (energyOf(star, moved) < energy) return moved;
+using Points = std::vector<dvec2>;
+
+class Relaxation {
+public:
+    Relaxation(const CutMesh& mesh, const Disk& disk, Points& st)
+        : st_(st), numbers_(disk.vertexCount(), kNone), gradient_(st.size()), step_(st.size(), dvec2(0)) {
+        for (std::uint32_t v = 0; v < disk.vertexCount(); ++v)
+            if (disk.isOnBorder[v] == 0) numbers_[v] = count_++;
+        listTriangles(mesh, disk);
+        energy_ = evaluate(st_, &gradient_);
     }
-    return p;
-}
+
+    /// One step downhill; false where it gains nothing that counts.
+    bool descend() {
+        if (count_ == 0 || !solveStep()) return false;
+        double slope = 0;
+        for (std::size_t v = 0; v < st_.size(); ++v)
+            if (numbers_[v] != kNone) slope += glm::dot(step_[v], gradient_[v]);
+        // As far as no triangle turns over, then half as far until the energy falls as it should, and while it falls.
+        constexpr int kHalvings = 30;
+        constexpr double kFarthest = 2, kShareOfSlope = 1e-4, kLeastGain = 1e-3;
+        double length = std::min(kFarthest, 0.9 * findTurning());
+        Points moved = at(length);
+        double energy = evaluate(moved, nullptr);
+        for (int i = 0; !(energy < energy_ + kShareOfSlope * length * slope); ++i) {
+            if (i == kHalvings) return false;
+            length /= 2, moved = at(length), energy = evaluate(moved, nullptr);
+        }
+        for (int i = 0; i < kHalvings; ++i) {
+            Points nearer = at(length / 2);
+            const double found = evaluate(nearer, nullptr);
+            if (!(found < energy)) break;
+            length /= 2, moved = std::move(nearer), energy = found;
+        }
+        const double gain = (energy_ - energy) / energy_;
+        st_ = std::move(moved);
+        energy_ = evaluate(st_, &gradient_);
+        return gain > kLeastGain;
+    }
+
+private:
+    /// All but those that are turned over already, which have no energy that could be made smaller.
+    void listTriangles(const CutMesh& mesh, const Disk& disk) {
+        double area = 0;
+        for (std::uint32_t h = 0; h < disk.corners.size(); h += 3) {
+            const dvec3& q = mesh.positions[mesh.corners[h]];
+            const dvec3 q1 = mesh.positions[mesh.corners[h + 1]] - q, q2 = mesh.positions[mesh.corners[h + 2]] - q;
+            const RelaxedTriangle triangle{.copies = {disk.corners[h], disk.corners[h + 1], disk.corners[h + 2]},
+                                           .q1q1 = glm::dot(q1, q1),
+                                           .q2q2 = glm::dot(q2, q2),
+                                           .q1q2 = glm::dot(q1, q2),
+                                           .area = glm::length(glm::cross(q1, q2)) / 2};
+            area += triangle.area;
+            const auto [u, v] = sidesOf(triangle, st_);
+            if (energyOf(triangle, u, v).planeArea > 0) triangles_.push_back(triangle);
+        }
+        // Those without an area must not turn over either.
+        const double least = 1e-6 * area / double(std::max<std::size_t>(1, triangles_.size()));
+        for (RelaxedTriangle& triangle : triangles_) triangle.area = std::max(triangle.area, least);
+    }
+
+    static std::pair<dvec2, dvec2> sidesOf(const RelaxedTriangle& t, const Points& points) {
+        return {points[t.copies[1]] - points[t.copies[0]], points[t.copies[2]] - points[t.copies[0]]};
+    }
+
+    double evaluate(const Points& points, Points* gradient) const {
+        double sum = 0;
+        if (gradient != nullptr) std::ranges::fill(*gradient, dvec2(0));
+        for (const RelaxedTriangle& triangle : triangles_) {
+            const auto [u, v] = sidesOf(triangle, points);
+            const TriangleEnergy one = energyOf(triangle, u, v);
+            sum += one.energy;
+            if (gradient == nullptr) continue;
+            (*gradient)[triangle.copies[0]] -= one.du + one.dv;
+            (*gradient)[triangle.copies[1]] += one.du;
+            (*gradient)[triangle.copies[2]] += one.dv;
+        }
+        return sum;
+    }
+
+    /// The step x of H x = -gradient. H takes the place of the second derivatives: a triangle that is deformed by grad
+    /// x has about 6 |grad x|^2 of its energy more, because that goes with the inverse square of lengths in the plane.
+    /// That is Dirichlet's integral, whose matrix has the cotangents of its angles (Pinkall and Polthier 1993).
+    bool solveStep() {
+        std::vector<Eigen::Triplet<double>> entries;
+        entries.reserve(3 * triangles_.size() + count_);
+        std::vector<double> diagonal(count_, 0);
+        for (const RelaxedTriangle& triangle : triangles_) {
+            const auto [u, v] = sidesOf(triangle, st_);
+            const TriangleEnergy one = energyOf(triangle, u, v);
+            const double density = 6 * one.energy / (one.planeArea * one.planeArea);
+            const std::array<dvec2, 3> sides{v - u, -v, u}; // side k is opposite to corner k
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double weight = -density * glm::dot(sides[(k + 1) % 3], sides[(k + 2) % 3]);
+                const std::uint32_t i = numbers_[triangle.copies[(k + 1) % 3]],
+                                    j = numbers_[triangle.copies[(k + 2) % 3]];
+                if (i != kNone) diagonal[i] += weight;
+                if (j != kNone) diagonal[j] += weight;
+                if (i != kNone && j != kNone) entries.emplace_back(std::max(i, j), std::min(i, j), -weight);
+            }
+        }
+        constexpr double kSlack = 1e-9;
+        for (std::uint32_t i = 0; i < count_; ++i) entries.emplace_back(i, i, diagonal[i] * (1 + kSlack));
+        Eigen::SparseMatrix<double> matrix(count_, count_);
+        matrix.setFromTriplets(entries.begin(), entries.end());
+        if (!isAnalysed_) solver_.analyzePattern(matrix); // the pattern is that of the mesh
+        isAnalysed_ = true;
+        solver_.factorize(matrix);
+        if (solver_.info() != Eigen::Success) return false;
+        Eigen::MatrixXd right(count_, 2);
+        for (std::size_t v = 0; v < st_.size(); ++v)
+            if (numbers_[v] != kNone) right.row(numbers_[v]) << -gradient_[v].x, -gradient_[v].y;
+        const Eigen::MatrixXd found = solver_.solve(right);
+        if (!found.allFinite()) return false;
+        for (std::size_t v = 0; v < st_.size(); ++v)
+            if (numbers_[v] != kNone) step_[v] = {found(numbers_[v], 0), found(numbers_[v], 1)};
+        return true;
+    }
+
+    /// The length of the step at which the first triangle turns over: the smallest root above 0 of its area, which is a
+    /// quadratic function of the length (Smith and Schaefer 2015, section 3.3).
+    [[nodiscard]] double findTurning() const {
+        double least = std::numeric_limits<double>::infinity();
+        const auto cross = [](const dvec2& a, const dvec2& b) { return a.x * b.y - a.y * b.x; };
+        for (const RelaxedTriangle& triangle : triangles_) {
+            const auto [u, v] = sidesOf(triangle, st_);
+            const auto [du, dv] = sidesOf(triangle, step_);
+            const double a = cross(du, dv), b = cross(u, dv) + cross(du, v), c = cross(u, v);
+            const double discriminant = b * b - 4 * a * c;
+            if (discriminant < 0) continue;
+            const double q = -0.5 * (b + std::copysign(std::sqrt(discriminant), b));
+            for (const double root : {q / a, c / q}) // without a root it is not finite, or not above 0
+                if (root > 0) least = std::min(least, root);
+        }
+        return least;
+    }
+
+    [[nodiscard]] Points at(double length) const {
+        Points points(st_);
+        for (std::size_t v = 0; v < points.size(); ++v) points[v] += length * step_[v];
+        return points;
+    }
+
+    Points& st_;
+    std::vector<RelaxedTriangle> triangles_;
+    std::vector<std::uint32_t> numbers_; ///< per copy: its unknown
+    std::uint32_t count_ = 0;
+    Points gradient_, step_;
+    double energy_ = 0;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver_;
+    bool isAnalysed_ = false;
+};
 
 } // namespace
 
-void relaxInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2>& st, int sweeps) {
-    std::vector<StarTriangle> star;
-    for (int sweep = 0; sweep < sweeps; ++sweep)
-        for (std::uint32_t i = 0; i < disk.vertexCount(); ++i) {
-            const std::uint32_t v = sweep % 2 == 0 ? i : disk.vertexCount() - 1 - i; // there and back
-            if (disk.isOnBorder[v] != 0) continue;
-            star.clear();
-            for (const std::uint32_t h : disk.edgesFrom(v)) {
-                const std::uint32_t second = nextOf(h), third = previousOf(h);
-                const dvec3& q = mesh.positions[mesh.corners[h]];
-                const dvec3 q1 = mesh.positions[mesh.corners[second]] - q, q2 = mesh.positions[mesh.corners[third]] - q;
-                star.push_back({.p2 = st[disk.corners[second]],
-                                .p3 = st[disk.corners[third]],
-                                .q1q1 = glm::dot(q1, q1),
-                                .q2q2 = glm::dot(q2, q2),
-                                .q1q2 = glm::dot(q1, q2),
-                                .area = glm::length(glm::cross(q1, q2))});
-            }
-            st[v] = descend(star, st[v]);
-        }
+void relaxInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2>& st, int steps) {
+    Relaxation relaxation(mesh, disk, st);
+    for (int step = 0; step < steps && relaxation.descend();) ++step;
 }
 
 } // namespace relief

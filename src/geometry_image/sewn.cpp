@@ -226,4 +226,15 @@ MeshFaults findFaults(std::span<const std::uint32_t> indices) {
     return faults;
 }
 
+std::uint64_t countTurned(const DenseMesh& mesh) {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        const auto at = [&](std::size_t k) { return dvec3(mesh.positions[mesh.indices[i + k]]); };
+        dvec3 normal(0);
+        for (std::size_t k = 0; k < 3; ++k) normal += dvec3(mesh.normals[mesh.indices[i + k]]);
+        if (glm::dot(glm::cross(at(1) - at(0), at(2) - at(0)), normal) < 0) ++count;
+    }
+    return count;
+}
+
 } // namespace relief

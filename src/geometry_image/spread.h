@@ -28,8 +28,8 @@ std::vector<dvec2> placeOnCircle(const CutMesh& mesh, const Disk& disk, std::spa
 /// the map stretches most; the map of the least stretch is the result.
 SpreadMap spreadInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2> border, int steps);
 
-/// Moves each inner copy in turn, by steepest descent, to where the L2 stretch of the triangles around it is smaller
-/// (Sander et al. 2001, section 3): no triangle turns over, and no sweep makes the stretch larger.
-void relaxInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2>& st, int sweeps);
+/// Moves all inner copies together, downhill: to where the L2 stretch of triangles is smaller (Sander et al. 2001,
+/// section 3), and rows and columns of samples meet at wider angles. No triangle turns over.
+void relaxInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2>& st, int steps);
 
 } // namespace relief

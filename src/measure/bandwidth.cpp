@@ -56,7 +56,7 @@ public:
     BandwidthSuite(SuiteContext& context, const TestScene& scene)
         : context_(context), study_(context.device, scene, context.options.isQuick ? 6e4 : 1e6,
                                     context.options.isQuick ? 40'000 : 100'000),
-          images_(study_, context.options.isQuick ? 150e3 : 250e3, context.options.isQuick ? 513 : 1025),
+          images_(study_, context.options.isQuick ? 150e3 : 250e3, context.options.isQuick ? 513 : 2049),
           pictures_(context, study_), cageFileBytes_(double(measureCageFile(scene.cage))) {}
 
     void run() {

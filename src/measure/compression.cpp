@@ -82,6 +82,12 @@ MeshError CompressionStudy::computeError(const DenseMesh& mesh) const {
     return {.rms = distance.rms() / diagonal_, .hausdorff = distance.hausdorff() / diagonal_};
 }
 
+void CompressionStudy::moveToReference(dvec3& position, dvec3& normal) const {
+    const NearestPoint nearest = reference_->nearest(position);
+    const dvec3 there = normalAt(referenceMesh_, nearest);
+    if (glm::dot(there, normal) > 0) position = nearest.point, normal = there; // not through a thin sheet
+}
+
 const Evaluated& CompressionStudy::evaluate(const Compression& compression) {
     const auto found = evaluated_.find(compression);
     if (found != evaluated_.end()) return found->second;

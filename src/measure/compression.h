@@ -55,6 +55,9 @@ public:
     DenseMesh makeMesh(const Compression& compression);
 
     [[nodiscard]] MeshError computeError(const DenseMesh& mesh) const;
+    /// Moves a point to the nearest one of the reference and gives it the normal there, unless that looks the other
+    /// way.
+    void moveToReference(dvec3& position, dvec3& normal) const;
     const Evaluated& evaluate(const Compression& compression);
     /// Bytes on the device of the surface without a map.
     std::uint64_t surfaceBytes(int isolation);

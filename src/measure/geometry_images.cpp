@@ -7,7 +7,8 @@
 namespace relief {
 
 GeometryImageStudy::GeometryImageStudy(CompressionStudy& study, double triangleCount, int largestSize) : study_(study) {
-    // Every method starts from the same surface; this one from a mesh of it that is spread in some seconds.
+    // Every method starts from the same surface: this one spreads a mesh of it in some seconds, and takes its samples
+    // from the surface itself.
     Compression compression = study.uncompressed();
     const double perRate = double(study.reference().indices.size()) / 3 / std::pow(study.referenceRate(), 2);
     compression.rate = std::max(1, int(std::sqrt(triangleCount / perRate)));
@@ -28,7 +29,10 @@ GeometryImageStudy::GeometryImageStudy(CompressionStudy& study, double triangleC
 const MeasuredImage& GeometryImageStudy::measure(int size) {
     const auto found = measured_.find(size);
     if (found != measured_.end()) return found->second;
-    MeasuredImage measured{.image = surface_->sample(size), .error = {}};
+    MeasuredImage measured{
+        .image = surface_->sample(size,
+                                  [this](dvec3& position, dvec3& normal) { study_.moveToReference(position, normal); }),
+        .error = {}};
     measured.error = study_.computeError(toMesh(measured.image));
     return measured_.emplace(size, std::move(measured)).first->second;
 }

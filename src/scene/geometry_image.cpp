@@ -10,7 +10,9 @@
 namespace relief {
 
 Cage readGeometryImageCage(const ObjectDesc& desc) {
-    const GeometryImage image = readGeometryImage(desc.cage);
+    std::optional<GeometryImage> read;
+    if (!desc.image) read = readGeometryImage(desc.cage);
+    const GeometryImage& image = desc.image ? *desc.image : *read;
     const int mip = desc.mip.value_or(0);
     if (mip >= image.mipCount())
         fail(Failure::usage, "{}: --mip {} is none of its mips, which are 0 to {}", desc.cage, mip,
@@ -34,7 +36,8 @@ Cage readGeometryImageCage(const ObjectDesc& desc) {
 
 SceneDesc withFittingMip(const SceneDesc& desc) {
     if (desc.object.mip || !isGeometryImageFile(desc.object.cage)) return desc;
-    const GeometryImage image = readGeometryImage(desc.object.cage);
+    const auto read = std::make_shared<const GeometryImage>(readGeometryImage(desc.object.cage));
+    const GeometryImage& image = *read;
     std::vector<dvec3> points;
     for (const vec3& p : image.positions) points.emplace_back(p);
     const View view = viewOf(makeCamera(desc, image.coordinates, points), desc.size.y);
@@ -48,6 +51,7 @@ SceneDesc withFittingMip(const SceneDesc& desc) {
     }
     pixels /= double(size * (size - 1));
     SceneDesc fitted = desc;
+    fitted.object.image = read;
     const double mip = std::floor(std::log2(std::max(1.0, 1 / std::max(pixels, 1e-9))));
     fitted.object.mip = std::min(int(mip), image.mipCount() - 1);
     return fitted;

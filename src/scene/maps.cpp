@@ -222,13 +222,15 @@ void warnOfMissingTiles(const Cage& cage, const HeightMap& set, const std::strin
 void warnOfOtherOrigin(const ObjectDesc& desc, std::uint64_t topology, const Warn& warn) {
     const HeightDesc& height = desc.height;
     const std::string file = findTilePattern(height.path) ? listTiles(height.path).front().path : height.path;
-    if (lowerExtension(file) != ".exr" || height.vectors) return;
-    const std::optional<MapOrigin> origin = readMapOrigin(readImageInfo(file));
+    if (height.vectors) return;
+    const ImageInfo info = readImageInfo(file);
+    const std::optional<MapOrigin> origin = readMapOrigin(info);
     if (!origin) return;
     if (origin->topology != topology)
         warn(fmt::format("{}: this map was baked over another cage than {}, or with another --weld", file, desc.cage));
-    const double mid = height.mid.value_or(0), scale = height.scale.value_or(1);
-    if (mid != origin->mid || scale != origin->scale)
+    const double mid = height.mid.value_or(info.hasUnit() ? 0 : 0.5), scale = height.scale.value_or(1);
+    const auto isSame = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); }; // digits of a report
+    if (!isSame(mid, origin->mid) || !isSame(scale, origin->scale))
         warn(fmt::format("{}: this map was baked for --mid {} --scale {}; it is read with --mid {} --scale {}", file,
                          origin->mid, origin->scale, mid, scale));
 }

@@ -53,9 +53,10 @@ struct MotionDesc {
 };
 
 struct ObjectDesc {
-    std::string cage;                       ///< path
-    std::optional<Subdivision> subdivision; ///< default: none for a mesh of triangles, else catmark
-    std::optional<int> isolation;           ///< default: neededIsolation()
+    std::string cage;                                  ///< path
+    std::shared_ptr<const struct GeometryImage> image; ///< a geometry image that the path holds, where it has been read
+    std::optional<Subdivision> subdivision;            ///< default: none for a mesh of triangles, else catmark
+    std::optional<int> isolation;                      ///< default: neededIsolation()
     EndCapKind endCaps = EndCapKind::exact;
     std::optional<Distance> weld; ///< joins boundary vertices at most so far apart; default: vertices stay as they are
     std::optional<int> mip;       ///< of a geometry image; default 0
@@ -138,11 +139,10 @@ LoadedObject load(const ObjectDesc& desc, CageState state, const Warn& warn);
 
 /// Loads the object and the environment of a scene. Warns of subdivision tags on polygons that are drawn themselves.
 LoadedScene load(const SceneDesc& desc, CageState state, const Warn& warn);
-/// The scene with the coarsest mip of a geometry image whose quads are a pixel long at most, where no mip is named.
+/// The scene with the coarsest mip of a geometry image whose quads are a pixel long at most; a mip that is named stays.
 SceneDesc withFittingMip(const SceneDesc& desc);
 
-/// Frees what the device holds by now: the surface's tables, maps, textures, dense polygons. The cage and its motion
-/// stay.
+/// Frees what the device holds by now (tables, maps, textures, dense polygons), not the cage and its motion.
 void freeHostCopies(LoadedScene& scene);
 
 /// Joins boundary vertices of a cage that nothing moves. Throws Failure::usage when no face is left.

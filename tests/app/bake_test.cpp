@@ -67,6 +67,18 @@ TEST_F(Bake, comesBackWithinHalfAStepOfATexel) {
         jsonOf(bake({cage, sculpt, "--check", "--height", folder / "map.png", "--json"},
                     fmt::format("--mid {} --scale {}", double(codes["mid"]), double(codes["scale"]))));
     EXPECT_NEAR(again["rms"], double(codes["rms"]), 1e-8);
+    // Read in another way there is a word about it, as of a TIFF.
+    const auto hasWarning = [&](const std::string& path, const std::string& more) {
+        const Outcome outcome = relief({"export", cage, "--height", path, "-o", folder / "x.ply"}, "--rate 1 " + more);
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        return contains(outcome.err, "was baked for --mid");
+    };
+    EXPECT_TRUE(hasWarning(folder / "map.png", ""));
+    EXPECT_FALSE(hasWarning(folder / "map.png",
+                            fmt::format("--mid {:.9g} --scale {:.9g}", double(codes["mid"]), double(codes["scale"]))));
+    expectDone(bake({cage, sculpt, "-o", folder / "map.tif"}, "--size 32,32 -q --tolerance 50%"));
+    EXPECT_FALSE(hasWarning(folder / "map.tif", ""));
+    EXPECT_TRUE(hasWarning(folder / "map.tif", "--scale 2"));
     EXPECT_NEAR(again["seam_gap"], double(codes["seam_gap"]), 1e-8);
 
     // Normals look out of the surface, and are as steep as the heights.
@@ -107,6 +119,24 @@ TEST_F(Bake, needsNoTextureCoordinatesPerFace) {
     const nlohmann::json again =
         jsonOf(bake({folder / "bare.obj", sculpt, "--check", "--height", map, "--smooth-cage", "--json"}, ""));
     EXPECT_NEAR(again["rms"], double(report["rms"]), 1e-8);
+    // Halves, and a mask of voids, which are maps per face as well. A sculpt of every other face leaves voids.
+    std::string half;
+    std::istringstream cageLines(readFile(folder / "bare.obj"));
+    int faceCount = 0;
+    for (std::string line; std::getline(cageLines, line);)
+        if (!line.starts_with("f ") || faceCount++ % 2 == 0) half += line + "\n";
+    putFile(folder / "half.obj", half);
+    const nlohmann::json holes = jsonOf(bake({folder / "bare.obj", folder / "half.obj", "-o", folder / "h.exr",
+                                              "--per-face", "--format", "half", "--voids", folder / "v.exr", "--json"},
+                                             "--face-size 4 --tolerance 50%"));
+    EXPECT_GT(holes["voids"], 0);
+    EXPECT_EQ(readImageInfo(folder / "h.exr").sample, "half");
+    EXPECT_EQ(readImageInfo(folder / "v.exr").attributes.at("relief:faces"),
+              readImageInfo(folder / "h.exr").attributes.at("relief:faces"));
+    const Image mask = readImage(folder / "v.exr");
+    EXPECT_GT(std::ranges::count(mask.texels, 1.0f), 0);
+    EXPECT_EQ(std::ranges::count(mask.texels, 1.0f) + std::ranges::count(mask.texels, 0.0f),
+              std::ptrdiff_t(mask.texels.size()));
     // The surface stays closed, and the map says which cage it is for.
     expectDone(relief({"export", folder / "bare.obj", "--height", map, "-o", folder / "closed.ply", "-q"}, "--rate 8"));
     TriangleMesh mesh = readTriangles(folder / "closed.ply");
@@ -152,12 +182,15 @@ TEST_F(Bake, writesTheTilesThatFacesLieIn) {
     EXPECT_TRUE(contains(warningsOf({cage, "--height", first, "--scale", "2"}),
                          "for --mid 0 --scale 1; it is read with --mid 0 --scale 2"));
 
-    // A full disk leaves all tiles as they were.
-    const std::string before = readFile(first);
-    const Outcome full = shell(
-        "ulimit -f 8; exec \"$RELIEF\" bake $IN/wide.obj $IN/sculpt.ply -o '" + set + "' -q --size 128,128", folder);
+    // A full disk leaves all tiles as they were, also where it holds all files but the last: masks are small.
+    const std::string before = readFile(first), voids = folder / "v.1001.png";
+    putFile(voids, "an old mask");
+    const Outcome full = shell("ulimit -f 8; exec \"$RELIEF\" bake $IN/wide.obj $IN/sculpt.ply -o '" + set +
+                                   "' --voids $IN/'v.<UDIM>.png' -q --size 128,128",
+                               folder);
     expectRefused(full, Failure::file, {"m.1001.exr", "cannot be written"});
     EXPECT_EQ(readFile(first), before);
+    EXPECT_EQ(readFile(voids), "an old mask");
 }
 
 TEST_F(Bake, refusesWhatCannotBeBaked) {
@@ -187,8 +220,9 @@ TEST_F(Bake, refusesWhatCannotBeBaked) {
         expect(words, Failure::usage, parts);
     };
     expectPerFace({"--face-size", "3"}, {"--face-size 3", "1, 2, 4"});
-    expectPerFace({"--voids", folder / "v.png"}, {"v.png", "heights alone"});
-    expectPerFace({"--format", "half"}, {"one .exr of floats"});
+    expectPerFace({"--voids", folder / "v.png"}, {"v.png", "one .exr of floats or halves"});
+    expectPerFace({"--normal", folder / "n.png"}, {"n.png", "heights and --voids alone"});
+    expectPerFace({"--format", "unorm16"}, {".exr holds no unorm16"});
     putFile(folder / "tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     expect({folder / "tri.obj", sculpt, "-o", map, "--per-face", "--scheme", "loop"}, Failure::usage,
            {"faces need four sides"});

@@ -27,6 +27,7 @@ TEST(GeometryImageVerb, statesItsErrorAndThatItIsClosed) {
     EXPECT_EQ(report["size"], 65);
     EXPECT_EQ(report["open_edges"], nlohmann::json::array({0, 0, 0, 0}));
     EXPECT_EQ(report["triangles"], 2 * 64 * 64);
+    EXPECT_EQ(report["turned_triangles"], 0);
     for (const char* way : {"image_to_source", "source_to_image"}) {
         EXPECT_GT(report[way]["rms_percent"], 0.0);
         EXPECT_LT(report[way]["rms_percent"], 0.1);
@@ -73,6 +74,23 @@ TEST(GeometryImageVerb, refusesInOneLine) {
         expectRefused(relief({verb, folder / "gi.exr", "-o", target}, "--mip 7"), Failure::usage, {"0 to 3"});
     }
     expectRefused(relief({"render", cagePath("torus"), "-o", folder / "no.png"}, "--mip 1"), Failure::usage, {"--mip"});
+    // What geometry images do not have.
+    expectRefused(relief({"export", folder / "gi.exr", "-o", folder / "no.ply"}, "--isolation 3"), Failure::usage,
+                  {"--isolation is for cages"});
+    expectRefused(relief({"export", folder / "gi.exr", "-o", folder / "no.ply"}, "--mip 1 --edge-pixels 2 -q"),
+                  Failure::usage, {"--edge-pixels is for cages"});
+    expectRefused(relief({"animate", folder / "gi.exr", "-o", folder / "no.pc2"}, "--deform twist(angle=30)"),
+                  Failure::usage, {"a geometry image is not"});
+    for (const char* name : {"no.ply", "no.pc2"}) EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+    // A full disk leaves what was there, the picture of normals as well.
+    putFile(folder / "old.exr", "an old image");
+    putFile(folder / "old.png", "an old picture");
+    expectRefused(shell("ulimit -f 16; exec \"$RELIEF\" geometry-image $IN/gi.exr -o $IN/old.exr --picture "
+                        "$IN/old.png -q --size 65",
+                        folder),
+                  Failure::file, {"old.exr", "cannot be written"});
+    EXPECT_EQ(readFile(folder / "old.exr"), "an old image");
+    EXPECT_EQ(readFile(folder / "old.png"), "an old picture");
     // Not within the tolerance: the image is there all the same.
     const Outcome far = relief({"geometry-image", folder / "gi.exr", "-o", out}, "-q --size 17 --tolerance 1e-6");
     EXPECT_EQ(far.exitCode, int(Failure::check)) << far.err;

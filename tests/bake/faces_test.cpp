@@ -117,6 +117,51 @@ TEST(TileHeights, goOnAcrossTheBordersOfTiles) {
         }
 }
 
+// Islands of one face each, in four tiles: edges whose sides lie in different tiles show one height on both.
+TEST(TileHeights, agreeAcrossSeamsBetweenTiles) {
+    Cage cage = withIslands(torusWithSeams());
+    for (vec2& st : cage.texCoords) st *= 2.0f;
+    const TriangleMesh bumpy = sheetThrough(500, [](double s, double t) {
+        const double a = 2 * std::numbers::pi * s, b = 2 * std::numbers::pi * t;
+        const double r = 0.8 + 0.04 * std::sin(9 * a) * std::cos(5 * b);
+        return dvec3((2 + r * std::cos(b)) * std::cos(a), r * std::sin(b), -(2 + r * std::cos(b)) * std::sin(a));
+    });
+    const MeasuredSurface sculpt = measured(bumpy);
+    const Surface surface = buildSurface(cage, {});
+    const ReferenceSurface reference(cage, SurfaceOptions());
+    const auto largestGap = [&](double margin) {
+        std::vector<HeightMap> maps;
+        const std::vector<ivec2> places = findTilesOfFaces(reference);
+        EXPECT_EQ(places, (std::vector<ivec2>{{0, 0}, {1, 0}, {0, 1}, {1, 1}}));
+        for (const ivec2& place : places) {
+            const Baking baking(
+                cage, {.width = 256, .height = 256, .margin = margin, .wrap = Wrap::clamp, .origin = dvec2(place)});
+            maps.push_back(baking.mapOf(baking.bake(sculpt, {1, 1})));
+        }
+        const HeightMap set = makeTileSet(maps, places);
+        const EdgeIncidences edges = edgeIncidences(surface);
+        double gap = 0;
+        int between = 0;
+        for (std::size_t edge = 0; edge < surface.edges.size(); ++edge)
+            for (int i = 0; i <= 16; ++i) {
+                dvec2 st[2];
+                for (std::size_t k = 0; k < 2; ++k) {
+                    const Incidence& side = edges.of(edge)[k];
+                    const dvec2 uv =
+                        sidePoint(4, int(side.side), std::lerp(double(side.start), double(side.end), i / 16.0));
+                    st[k] = reference.texture(int(side.face), uv).st;
+                }
+                if (glm::floor(st[0]) == glm::floor(st[1])) continue;
+                ++between;
+                gap = std::max(gap, std::abs(sampleHeight(set, st[0]).h - sampleHeight(set, st[1]).h));
+            }
+        EXPECT_GT(between, 100);
+        return gap;
+    };
+    EXPECT_LT(largestGap(2), 0.001);
+    EXPECT_GT(largestGap(0), 0.003); // what it would be without texels beyond the borders
+}
+
 TEST(CageLines, findTheFirstSheetBelowTheCage) {
     const auto flat = [](double height) { return hillsOverGrid(8, [height](double, double) { return height; }); };
     TriangleMesh sheets = flat(0.3);
@@ -136,7 +181,13 @@ TEST(CageLines, findTheFirstSheetBelowTheCage) {
     EXPECT_NEAR(heightBelow(0.35), 0.3, 1e-6);
     EXPECT_NEAR(heightBelow(0.15), 0.1, 1e-6);
     EXPECT_NEAR(heightBelow(0.01), -0.05, 1e-6);
+    // Inside of the surface: the nearest sheet on either side.
     EXPECT_NEAR(heightBelow(-0.2), -0.05, 1e-6);
+    const ReferenceSurface inside(inflateCage(grid, -0.2), SurfaceOptions());
+    EXPECT_NEAR(
+        bakeHeights(baking.reference, measured(flat(0.3)), baking.texels, {.lines = {.reach = {1, 1}, .cage = &inside}})
+            .heights[0],
+        0.3, 1e-6);
     // Normals of the inflated cage are smooth across sharp edges: corners of a cube move along its diagonals.
     const Cage box = hardCube(), inflated = inflateCage(box, 0.5);
     for (std::size_t i = 0; i < box.positions.size(); ++i)

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/files_together.h"
 #include "support.h"
 
 namespace relief::test {
@@ -71,6 +72,41 @@ TEST(WriteWhole, leavesEverythingAsItWasWhenTheCallThrows) {
     expectFailure(Failure::device, {"device lost"}, write);
     EXPECT_EQ(readFile(folder / "a.txt"), "old");
     EXPECT_EQ(folder.fileCount(), 1u);
+}
+
+TEST(FilesTogether, appearWhenAllOfThemAreThere) {
+    const TemporaryFolder folder;
+    putFile(folder / "a.txt", "old");
+    {
+        FilesTogether files;
+        writeFile(folder / "a.txt", "new");
+        writeFile(folder / "b.txt", "new");
+        EXPECT_EQ(readFile(folder / "a.txt"), "old");
+        EXPECT_EQ(folder.fileCount(), 1u);
+        files.takePlaces();
+        EXPECT_EQ(readFile(folder / "a.txt"), "new");
+        EXPECT_EQ(readFile(folder / "b.txt"), "new");
+    }
+    writeFile(folder / "b.txt", "at once");
+    EXPECT_EQ(readFile(folder / "b.txt"), "at once");
+}
+
+// The last of many does not go: those before it have not taken their places either.
+TEST(FilesTogether, leaveEverythingAsItWasWhereOneFails) {
+    const TemporaryFolder folder;
+    constexpr int kCount = 300; // more than are kept open
+    EXPECT_THROW(
+        {
+            const FilesTogether files;
+            for (int i = 0; i < kCount; ++i) {
+                putFile(folder / fmt::format("{}.txt", i), "old");
+                writeFile(folder / fmt::format("{}.txt", i), "new");
+            }
+            writeFile(folder / "missing/x.txt", "new");
+        },
+        Error);
+    EXPECT_EQ(folder.fileCount(), std::size_t(kCount));
+    for (int i = 0; i < kCount; ++i) EXPECT_EQ(readFile(folder / fmt::format("{}.txt", i)), "old") << i;
 }
 
 TEST(WriteWhole, refusesFoldersThatCannotBeWritten) {

@@ -344,6 +344,19 @@ TEST(Image, pngIsSmallWherePicturesAreSmooth) {
     EXPECT_LT(fs::file_size(folder / "a.png"), 256u * 256u * 3 / 4);
 }
 
+TEST(Image, textInHeadersComesBack) {
+    const TemporaryFolder folder;
+    const Image image{2, 2, 1, {0, 0.25f, 0.5f, 1}};
+    const ImageAttributes attributes{{"relief:mid", "0.25"}, {"relief:program", "relief bake"}};
+    for (const auto& [name, sample] : {std::pair("a.exr", SampleType::real), std::pair("a.tif", SampleType::real),
+                                       std::pair("b.tif", SampleType::uint16), std::pair("a.png", SampleType::uint16),
+                                       std::pair("b.png", SampleType::uint8)}) {
+        writeImage(folder / name, image, sample, attributes);
+        EXPECT_EQ(readImageInfo(folder / name).attributes, attributes) << name;
+        EXPECT_NEAR(readImage(folder / name).texels[2], 0.5, 0.002) << name;
+    }
+}
+
 TEST(Image, givesEqualFilesForEqualPictures) {
     const TemporaryFolder folder;
     const Image image{2, 2, 1, {0.0F, 0.25F, 0.5F, 1.0F}};

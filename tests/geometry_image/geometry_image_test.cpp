@@ -83,7 +83,7 @@ TEST(GeometryImage, sewsEveryShapeAtEveryMip) {
         EXPECT_EQ(surface.report().boundaryCount, shape.boundaries);
         EXPECT_LT(surface.report().stretch, shape.mostStretch);
         EXPECT_GE(surface.report().stretch, 1 - 1e-9);
-        EXPECT_LE(surface.report().stretch, surface.report().firstStretch);
+        EXPECT_LE(surface.report().stretch, 1.02 * surface.report().firstStretch); // shear counts, too
         EXPECT_LE(surface.report().cutLength, shape.mostCut);
         EXPECT_EQ(image.mipCount(), shape.mips);
         for (int mip = 0; mip < image.mipCount(); ++mip) {
@@ -141,6 +141,30 @@ TEST(GeometryImage, errorsFallWithTheSquareOfTheSize) {
 }
 
 // The outer and the inner boundary of a ring: every open edge of the image lies on one of them.
+// Rows of samples that meet at small angles on a long arm make triangles that look anywhere.
+TEST(GeometryImage, holdsLongArms) {
+    const DenseMesh jack = jackMesh(48);
+    const SpreadSurface surface = spread(jack, 129);
+    const DenseMesh mesh = toMesh(surface.sample(129));
+    EXPECT_LT(surface.report().stretch, 3.4); // before relaxing: 4
+    EXPECT_LT(double(countTurned(mesh)), 0.01 * double(mesh.indices.size() / 3));
+    EXPECT_LT(errorOf(jack, mesh), 1e-3);
+}
+
+TEST(GeometryImage, takesSamplesFromAFinerSurface) {
+    // A coarse sphere, whose samples are moved to the round one.
+    const SpreadSurface surface = spread(sphereMesh(6));
+    const auto settle = [](dvec3& position, dvec3& normal) { normal = position = glm::normalize(position); };
+    const GeometryImage image = surface.sample(65, settle);
+    for (std::size_t i = 0; i < image.positions.size(); ++i) {
+        EXPECT_NEAR(glm::length(image.positions[i]), 1, 1e-6);
+        EXPECT_EQ(image.positions[i], image.normals[i]);
+    }
+    const Counts counts = countMesh(toMesh(image));
+    EXPECT_EQ(counts.faults.openEdges + counts.faults.otherEdges, 0u);
+    EXPECT_GT(errorOf(sphereMesh(48), toMesh(surface.sample(65))), 5 * errorOf(sphereMesh(48), toMesh(image)));
+}
+
 TEST(GeometryImage, keepsBoundaries) {
     const DenseMesh ring = gridMesh(
         64, 8,

@@ -79,6 +79,23 @@ inline DenseMesh piercedSphere(std::uint32_t n) {
     return mesh;
 }
 
+/// A sphere with arms along its axes, each five times as long as the sphere is wide, bent and with waves: what single
+/// squares hold badly.
+inline DenseMesh jackMesh(std::uint32_t n) {
+    DenseMesh mesh = sphereMesh(n);
+    for (vec3& position : mesh.positions) {
+        const dvec3 p(position);
+        const dvec3 size = glm::abs(p);
+        const int axis = size.x > size.y && size.x > size.z ? 0 : size.y > size.z ? 1 : 2;
+        const double past = std::max(0.0, size[axis] - 0.93) / 0.07, arm = 10 * past * past;
+        dvec3 moved = (1 + 0.05 * std::sin(14 * p.x) * std::sin(14 * p.y) * std::sin(14 * p.z)) * p;
+        moved[axis] += (p[axis] > 0 ? 1 : -1) * arm;
+        moved[(axis + 1) % 3] += 0.5 * std::sin(0.7 * arm);
+        position = vec3(moved);
+    }
+    return mesh;
+}
+
 inline DenseMesh torusMesh(std::uint32_t n) {
     return gridMesh(
         n, n / 2,

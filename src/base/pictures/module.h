@@ -16,7 +16,7 @@ struct ImageEncoding {
     SampleType sample;                  ///< of all channels, where `channels` is empty
     std::vector<ImageChannel> channels; ///< with names and sample types of their own
     std::string compression;            ///< empty: the format's own choice
-    ImageAttributes attributes;         ///< of an EXR
+    ImageAttributes attributes;         ///< of an EXR; of a TIFF lines of its description
 };
 
 /// What the module does; base/images.h describes the functions of the same names.
@@ -46,6 +46,11 @@ Image decodeImage(std::span<const unsigned char> bytes, const std::string& name,
 void readImageRows(const std::string& path, const TakeRows& take, const ImageLimits& limits);
 std::vector<unsigned char> encodeImage(const std::string& path, const Image& image, const ImageEncoding& encoding);
 bool drawText(Image& image, const std::string& text, int x, int y, int size, float grey);
+
+inline constexpr const char* kTiffDescription = "ImageDescription"; ///< a TIFF has no other place for text of one's own
+/// Attributes as lines of a name, a blank and the text, and back; other lines are none.
+std::string joinAttributes(const ImageAttributes& attributes);
+ImageAttributes splitAttributes(const std::string& lines);
 } // namespace pictures
 
 } // namespace relief

@@ -325,7 +325,7 @@ std::string profileOf(const OIIO::ImageSpec& spec) {
 }
 
 ImageAttributes attributesOf(const OIIO::ImageSpec& spec) {
-    ImageAttributes attributes;
+    ImageAttributes attributes = splitAttributes(std::string(spec.get_string_attribute(kTiffDescription)));
     for (const OIIO::ParamValue& value : spec.extra_attribs)
         if (value.type() == OIIO::TypeString && std::string_view(value.name().string()).starts_with(kAttributePrefix))
             attributes[value.name().string()] = value.get_string();

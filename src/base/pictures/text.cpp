@@ -1,5 +1,6 @@
-// Text in pictures, by OpenImageIO and FreeType.
+// Text in pictures, by OpenImageIO and FreeType, and in their headers.
 #include <filesystem>
+#include <sstream>
 
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>
@@ -20,6 +21,23 @@ bool drawText(Image& image, const std::string& text, int x, int y, int size, flo
                                         OIIO::ImageBufAlgo::TextAlignX::Center, OIIO::ImageBufAlgo::TextAlignY::Center);
     if (!isDrawn) (void)buffer.geterror(); // taken, so that nothing prints it
     return isDrawn;
+}
+
+std::string joinAttributes(const ImageAttributes& attributes) {
+    std::string lines;
+    for (const auto& [name, text] : attributes) lines += name + ' ' + text + '\n';
+    return lines;
+}
+
+ImageAttributes splitAttributes(const std::string& lines) {
+    ImageAttributes attributes;
+    std::istringstream rest(lines);
+    for (std::string line; std::getline(rest, line);) {
+        const std::size_t blank = line.find(' ');
+        if (line.starts_with(kAttributePrefix) && blank != std::string::npos)
+            attributes[line.substr(0, blank)] = line.substr(blank + 1);
+    }
+    return attributes;
 }
 
 } // namespace relief::pictures

@@ -45,7 +45,11 @@ OIIO::ImageSpec makeSpec(const Image& image, const ImageEncoding& encoding) {
         spec.channelformats.push_back(sampleDesc(channel.sample));
     }
     if (!encoding.compression.empty()) spec.attribute("compression", encoding.compression);
-    for (const auto& [name, text] : encoding.attributes) spec.attribute(name, text);
+    const bool hasNames = encoding.format != "tiff";
+    for (const auto& [name, text] : encoding.attributes)
+        if (hasNames) spec.attribute(name, text);
+    if (!hasNames && !encoding.attributes.empty())
+        spec.attribute(kTiffDescription, joinAttributes(encoding.attributes));
     spec.attribute("DateTime", "2000:01:01 00:00:00"); // else the hour of writing: equal pictures must be equal files
     spec.attribute("oiio:UnassociatedAlpha", 1);       // otherwise colours are divided by alpha on the way out
     spec.attribute("tiff:write_exif", 0);              // it would be read back, and memory output cannot be read
