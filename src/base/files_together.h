@@ -1,4 +1,4 @@
-// Several output files that appear together or not at all.
+// For other modules: several output files that appear together or not at all.
 #pragma once
 
 namespace relief {
