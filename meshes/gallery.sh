@@ -48,6 +48,13 @@ picture lights octopus --height "$maps/octopus.exr" --color 0.6,0.6,0.6 --azimut
 "$relief" matcap --color 0.75,0.2,0.1 --roughness 0.25 --metallic 0 -q -o "$out/matcap_ball.png"
 picture matcap octopus --height "$maps/octopus.exr" --shading matcap --matcap "$out/matcap_ball.png" --azimuth -10 \
     --elevation 12 --fov 24 --edge-pixels 1.5 --size 960,600
+# An environment with labels in its three shapes, and a mirror that shows it.
+for shape in equirect sphere; do
+    "$relief" environment "$maps/labels_albedo.png" -o "$out/labels_$shape.png" --shape $shape --side 256 -q
+done
+"$relief" environment "$maps/labels_albedo.png" -o "$out/labels_cube.png" --shape cube --side 85 -q
+"$relief" render "$meshes/torus.obj" --environment "$maps/labels_albedo.png" --metallic 1 --roughness 0 --color 0.95,0.95,0.95 \
+    --no-shadows --light 0,90,0 --edge-pixels 3 --size 400,256 -q -o "$out/labels_mirror.png"
 # A globe: its relief moves the surface, and what is finer bends normals.
 "$relief" normal-map "$maps/globe_detail.exr" --scale 2 --size 6.28,4.19 -q -o "$out/globe_normals.png"
 picture globe ball --height "$maps/globe.exr" --scale 0.7 --albedo "$maps/globe_albedo.png" --normal-map "$out/globe_normals.png" \
@@ -114,7 +121,7 @@ rm -f "$out/spread.exr"
         squash(axis=y, amount=0.08*sin(2*pi*t))" \
     --frames 0:47 --azimuth -10 --elevation 14 --fov 24 --edge-pixels 2 --spacing fractional --size 560,350 \
     -o "$out/octopus.webp"
-# Waves that mirror the sky: heights by a formula that moves with the time.
-"$relief" animate "$meshes/plane.obj" --height-function waves --scale 0.3 --path dice --edge-pixels 3 --metallic 0 --roughness 0.06 \
-    --color 0.03,0.10,0.12 --light 200,18 --azimuth 20 --elevation 10 --look-at 0,0,0.3 --distance 1.6 --frames 0:47 \
-    --size 480,300 -q -o "$out/waves.webp"
+# Waves by a formula that moves with the time: they mirror the sky, and bend what is seen of a tiled floor.
+"$relief" animate "$meshes/plane.obj" --height-function waves --scale 0.25 --path dice --edge-pixels 3 --shading water \
+    --water-floor 0.3,0.8,0.72,0.55,0.125 --color 0.35,0.75,0.78 --roughness 0.02 --light 200,35 --azimuth 20 --elevation 26 \
+    --look-at 0,0,0.25 --distance 2.2 --frames 0:47 --size 400,250 -q -o "$out/waves.webp"

@@ -1,9 +1,11 @@
 // make_maps OUTDIR [NAME...]: writes height maps (NAME.exr, cage units, mid 0) and color maps (NAME_albedo.png, sRGB)
-// for the cages of this folder, all of them or the named ones. The same bytes every time.
+// for the cages of this folder, and an environment (labels_albedo.png), all of them or the named ones. The same bytes
+// every time.
 #include <exception>
 #include <filesystem>
 #include <set>
 
+#include "labels.h"
 #include "lantern_map.h"
 #include "maps_ball.h"
 #include "maps_square.h"
@@ -26,12 +28,13 @@ constexpr Map kMaps[] = {
     {"globe", {1536, 1024}, paintGlobe},     {"globe_detail", {2304, 1536}, paintGlobeDetail},
     {"octopus", {2048, 2048}, paintOctopus}, {"orange", {1536, 1024}, paintOrange},
     {"smooth", {512, 512}, paintSmooth},     {"strawberry", {2048, 2048}, paintStrawberry},
-    {"terrain", {2048, 2048}, paintTerrain},
+    {"terrain", {2048, 2048}, paintTerrain}, {"labels", {1024, 768}, paintLabels},
 };
 
 void writeMap(const std::string& folder, const Map& map) {
     Painting painting = map.paint(map.size);
-    writeImage(fmt::format("{}/{}.exr", folder, map.name), painting.height, SampleType::real);
+    if (!painting.height.texels.empty())
+        writeImage(fmt::format("{}/{}.exr", folder, map.name), painting.height, SampleType::real);
     if (!painting.albedo.texels.empty())
         writeImage(fmt::format("{}/{}_albedo.png", folder, map.name), painting.albedo, SampleType::uint8);
 }

@@ -36,6 +36,7 @@ float openness(float depth) {
 
 #include "conserving.glsl"
 #include "phong.glsl"
+#include "water.glsl"
 
 // GGX with Smith's height-correlated masking (Heitz 2014) and Schlick's Fresnel, times n.l.
 float keySpecular(float nl, float nv, float nh, float vh, float roughness, float f0) {
@@ -84,6 +85,7 @@ vec3 seen(vec2 ndc, float depth, vec3 n, vec3 color, Material material) {
     if (kShading == kShadingConserving) return conserving(position, n, v, color, material, openness(depth));
     if (kShading == kShadingPhong || kShading == kShadingTable || kShading == kShadingVertexTable)
         return phong(position, n, v, color);
+    if (kShading == kShadingWater) return water(position, n, v, color, material);
     if (kShading == kShadingMatcap) return color * matcap(n, v);
     return shaded(position, n, v, color, material, openness(depth));
 }

@@ -65,6 +65,7 @@ RELIEF_CONSTANT uint kShadingPhong = 2u;       // Hart, eq. 16.20
 RELIEF_CONSTANT uint kShadingTable = 3u;       // the same from a table, looked up per pixel
 RELIEF_CONSTANT uint kShadingVertexTable = 4u; // the same, with coordinates in the table that are those of vertices
 RELIEF_CONSTANT uint kShadingMatcap = 5u;      // a picture of a ball, looked up by the normal
+RELIEF_CONSTANT uint kShadingWater = 6u;       // clear, over a floor
 
 RELIEF_CONSTANT int kShadingTableSide = 256; // texels
 

@@ -73,6 +73,10 @@ struct Light {
     vec4 phong;            // k_a, k_d, k_s and the exponent of Hart, eq. 16.20
     float occlusionRadius; // world units
     float environmentTurn; // about Y, counter-clockwise seen from above, in whole turns
+    vec3 floorColor;       // kShadingWater: linear albedo
+    float floorHeight;     // world units, as those that follow: y of the floor
+    float floorDepth;      // of the floor under level water
+    float floorTile;       // side of light and dark tiles; 0: none
 };
 
 struct Material {
@@ -129,7 +133,7 @@ struct PassInputs {
 
 #ifdef __cplusplus
 static_assert(sizeof(ModelTables) == 30 * 4 + kMostMaps * sizeof(MapRecord) && sizeof(Rates) == 24);
-static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16 + 24);
+static_assert(sizeof(View) == 3 * 64 + 36 + 12 + 8 + 12 + 4 && sizeof(Light) == 11 * 12 + 64 + 16 + 24 + 24);
 static_assert(sizeof(Material) == 24 && sizeof(Targets) == 19 * 8);
 static_assert(sizeof(PassInputs) == offsetof(PassInputs, targets) + sizeof(Targets));
 } // namespace relief::pass

@@ -104,7 +104,11 @@ json describeHeights(ObjectDesc desc, const std::string& cage, bool isQuiet) {
 
 /// Counts what each channel holds, strip by strip: the picture is never in memory as a whole.
 std::vector<HeightCensus> takeCensus(const std::string& path, const ImageInfo& info) {
-    std::vector<HeightCensus> channels(std::size_t(info.channels), HeightCensus(info));
+    // What a PNG names is a grey: its reader adds the alpha, which is none.
+    ImageInfo other = info;
+    if (info.format == "png") other.noData.reset();
+    std::vector<HeightCensus> channels(std::size_t(info.channels), HeightCensus(other));
+    channels.front() = HeightCensus(info);
     readImageRows(path, [&](int, int, std::span<const float> texels) {
         for (std::size_t i = 0; i < texels.size(); i += channels.size())
             for (std::size_t c = 0; c < channels.size(); ++c) channels[c].add(texels[i + c]);

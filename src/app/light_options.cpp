@@ -12,6 +12,44 @@ constexpr const char* kGroup = "shading";
 /// The word of --environment-shape that leaves it to the picture.
 constexpr const char* kAutomatic = "auto";
 
+/// Numbers with commas between them; none where one is no number up to 1e12.
+std::vector<double> parseNumbers(const std::string& word) {
+    std::vector<double> numbers;
+    for (const std::string& part : CLI::detail::split(word, ',')) {
+        double value = 0;
+        if (!CLI::detail::lexical_cast(part, value) || !(std::abs(value) <= 1e12)) return {};
+        numbers.push_back(value);
+    }
+    return numbers;
+}
+
+/// Reads a floor such as "0.5,0.6,0.5,0.4,0.25"; empty where the word is none.
+std::optional<WaterFloor> parseWaterFloor(const std::string& word) {
+    const std::vector<double> numbers = parseNumbers(word);
+    const std::size_t count = numbers.size();
+    if ((count != 1 && count != 4 && count != 5) || !(numbers[0] > 0)) return {};
+    WaterFloor floor{.depth = numbers[0]};
+    for (std::size_t i = 1; i < count; ++i)
+        if (numbers[i] < 0 || (i < 4 && numbers[i] > 1)) return {};
+    if (count > 3) floor.color = vec3(numbers[1], numbers[2], numbers[3]);
+    if (count > 4) floor.tile = numbers[4];
+    return floor;
+}
+
+void addWaterFloor(CLI::App& app, WaterFloor& floor) {
+    const auto check = [](const std::string& word) {
+        return parseWaterFloor(word) ? std::string()
+                                     : fmt::format("{} is not a floor: DEPTH, DEPTH,R,G,B or DEPTH,R,G,B,TILE", word);
+    };
+    CLI::Option* option = app.add_option_function<std::string>(
+        "--water-floor", [&floor](const std::string& word) { floor = *parseWaterFloor(word); },
+        fmt::format(
+            "--shading water: depth of the floor below the lowest point of the cage, its linear albedo 0..1, and "
+            "the side of light and dark tiles on it, in cage units (default: {},{:.2f},{:.2f},{:.2f}, no tiles)",
+            floor.depth, floor.color.x, floor.color.y, floor.color.z));
+    listIn(kGroup, "D[,R,G,B[,T]]", option->check(CLI::Validator(check, "")));
+}
+
 void addLights(CLI::App& app, LightingDesc& lighting) {
     const auto check = [](const std::string& word) {
         return parseLight(word) ? std::string()
@@ -46,12 +84,7 @@ void addLights(CLI::App& app, LightingDesc& lighting) {
 } // namespace
 
 std::optional<LightWord> parseLight(const std::string& word) {
-    std::vector<double> numbers;
-    for (const std::string& part : CLI::detail::split(word, ',')) {
-        double value = 0;
-        if (!CLI::detail::lexical_cast(part, value) || !(std::abs(value) <= 1e12)) return {};
-        numbers.push_back(value);
-    }
+    const std::vector<double> numbers = parseNumbers(word);
     const std::size_t count = numbers.size();
     if (count != 2 && count != 3 && count != 6) return {};
     if (!std::ranges::all_of(numbers.begin() + 2, numbers.end(), [](double x) { return x >= 0; })) return {};
@@ -134,6 +167,7 @@ void addShading(CLI::App& app, ShadingDesc& shading) {
                   "--table-at", setVertices,
                   describeWords("--shading table: where n.l and v.r are computed (default: pixels)", words))
                ->check(oneOf(words)));
+    addWaterFloor(app, shading.waterFloor);
     listIn(kGroup, "BALL",
            app.add_option("--matcap", shading.matcap,
                           "picture of a ball for --shading matcap (default: of the object's own material and lights)"));

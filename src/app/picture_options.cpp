@@ -192,6 +192,7 @@ RenderOptions toRenderOptions(const PictureArgs& picture, const SceneDesc& scene
     options.shading = scene.shading.shading;
     options.phong = scene.shading.phong;
     options.tableAtVertices = scene.shading.tableAtVertices;
+    if (options.shading == Shading::water) options.waterFloor = makeWaterFloor(scene.shading.waterFloor, object);
     options.unit = object.coordinates().unit;
     return options;
 }

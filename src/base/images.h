@@ -47,7 +47,8 @@ struct ImageInfo {
     int sampleBytes = 0;
     bool isFloat = false;         ///< half, float or double samples: heights in units, not 0..1
     bool isSigned = false;        ///< signed integers: texels are the stored numbers, not 0..1
-    std::optional<double> noData; ///< the stored number that stands for a void (GDAL_NODATA of a TIFF); may be NaN
+    std::optional<double> noData; ///< the stored number that stands for a void: GDAL_NODATA of a TIFF, which may be
+                                  ///< NaN, or the grey that a PNG makes transparent
     std::string colorTag;         ///< what in the file says that its numbers are colors, for messages: "sRGB"; else ""
     std::vector<std::string> channelNames;
     std::vector<ImagePart> parts; ///< at least the first one; only pages of its size

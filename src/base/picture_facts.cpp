@@ -29,6 +29,15 @@ std::string colorTagOf(std::string_view type, const PictureBytes& picture, std::
     return gamma == kLinear || gamma == 0 ? "" : fmt::format("gamma {:.2g}", double(kLinear) / gamma);
 }
 
+/// The grey that a tRNS chunk names, of samples of up to 8 bits from 0 to 255; empty where the picture is no grey one.
+std::optional<double> transparentGrey(std::span<const unsigned char> header, std::span<const unsigned char> data) {
+    constexpr unsigned kGrey = 0;
+    const unsigned bits = header[8], kind = header[9]; // after width and height (section 11.2.1)
+    if (kind != kGrey || bits == 0 || bits > 16 || data.size() != 2) return {};
+    const unsigned grey = unsigned(data[0]) << 8 | data[1];
+    return bits < 8 ? grey * 255.0 / ((1u << bits) - 1) : grey;
+}
+
 constexpr int kStartOfImage = 0xd8, kEndOfImage = 0xd9, kFirstRestart = 0xd0;
 
 bool standsAlone(int marker) { return marker == 0x01 || (marker >= kFirstRestart && marker <= kStartOfImage); }
@@ -51,6 +60,7 @@ std::string PictureBytes::readAll() const {
 PngFacts readPngFacts(const PictureBytes& picture) {
     PngFacts facts;
     std::uint64_t at = 8;
+    std::array<unsigned char, 13> header{};
     std::array<unsigned char, 8> head{}; // of a chunk: length and type; data and a checksum follow
     while (picture.read(at, head.data(), head.size()) == head.size()) {
         const std::uint64_t length = bigEndianAt(head), end = at + head.size() + length + 4;
@@ -58,6 +68,12 @@ PngFacts readPngFacts(const PictureBytes& picture) {
         if (type == "IEND"sv) {
             facts.isWhole = end <= picture.size();
             break;
+        }
+        if (type == "IHDR"sv && length == header.size()) picture.read(at + head.size(), header.data(), length);
+        if (type == "tRNS"sv) {
+            std::array<unsigned char, 2> grey{};
+            picture.read(at + head.size(), grey.data(), grey.size());
+            facts.noData = transparentGrey(header, std::span(grey).first(length == grey.size() ? length : 0));
         }
         // sRGB overrides a profile, and both the gamma for older readers (section 4.3).
         const std::string tag = colorTagOf(type, picture, at + head.size(), length);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -33,6 +34,7 @@ private:
 struct PngFacts {
     bool isWhole = false; ///< its chunks run to the end chunk
     std::string colorTag; ///< what says that its numbers are colors: "sRGB", "gamma 2.2", "ICC profile NAME"; else ""
+    std::optional<double> noData; ///< the grey that its tRNS chunk makes transparent, as its reader stores greys
 };
 
 /// Reads the heads of the chunks of a PNG (Portable Network Graphics, third edition, section 5.3).

@@ -11,9 +11,9 @@
 namespace relief {
 
 /// Counts what the texels of one channel are, before anything is stored of them.
-/// A void is a texel that holds the number of the file's GDAL_NODATA. In files whose samples have a unit, voids are
-/// also -9999, -32767, -32768, -99999, -2147483648 and numbers beyond +-1e30, each only where it stands apart: farther
-/// from all other heights than these span.
+/// A void is a texel that holds the number of the file's GDAL_NODATA (TIFF) or tRNS (PNG). In files whose samples have
+/// a unit, voids are also -9999, -32767, -32768, -99999, -2147483648 and numbers beyond +-1e30, each only where it
+/// stands apart: farther from all other heights than these span.
 class HeightCensus {
 public:
     explicit HeightCensus(const ImageInfo& info);
@@ -43,6 +43,7 @@ private:
     [[nodiscard]] std::size_t customOf(float texel) const;
 
     bool takesCustomary_;
+    const char* noDataTag_;       ///< what the file says it by
     std::optional<float> noData_; ///< as texels hold it
     double fileSays_ = 0;
     float slack_ = 0;

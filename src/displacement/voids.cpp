@@ -91,7 +91,8 @@ void fillVoids(int width, int height, std::span<float> texels, const std::vector
         }
 }
 
-HeightCensus::HeightCensus(const ImageInfo& info) : takesCustomary_(info.hasUnit()) {
+HeightCensus::HeightCensus(const ImageInfo& info)
+    : takesCustomary_(info.hasUnit()), noDataTag_(info.format == "png" ? "tRNS" : "GDAL_NODATA") {
     if (!info.noData) return;
     constexpr double kMost = std::numeric_limits<float>::max();
     fileSays_ = *info.noData;
@@ -155,7 +156,7 @@ std::uint64_t HeightCensus::voidCount() const {
 
 std::string HeightCensus::voidReason() const {
     std::string reason;
-    if (noDataCount_ > 0) reason = fmt::format("{} by its GDAL_NODATA", fileSays_);
+    if (noDataCount_ > 0) reason = fmt::format("{} by its {}", fileSays_, noDataTag_);
     for (const Custom& c : custom_)
         if (c.isVoid)
             reason +=

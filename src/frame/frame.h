@@ -98,6 +98,7 @@ struct RenderOptions : TriangleOptions {
     Shading shading = Shading::physical;
     PhongCoefficients phong;           ///< of Shading::phong and Shading::table
     bool tableAtVertices = false;      ///< Shading::table: n.l and v.r are those of vertices, interpolated
+    WaterFloor waterFloor;             ///< of Shading::water
     const GpuMatcap* matcap = nullptr; ///< null: a ball of the first instance's material, in the picture's light
     Camera camera;
     Lighting lighting;

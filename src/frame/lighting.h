@@ -88,6 +88,16 @@ enum class Shading {
     phong,    ///< PhongCoefficients, in distant lights
     table,    ///< the same, looked up in a table by n.l and v.r (Hart, eq. 16.22)
     matcap,   ///< a picture of a ball, looked up by the normal as the eye sees it (Hart, eq. 16.14)
+    water,    ///< clear, over WaterFloor: reflection and refraction by Fresnel's weights (shaders/water.glsl)
+};
+
+/// The level floor under Shading::water, whose material's albedo is what `depth` of the water lets through. It is lit
+/// through level water, without caustics and shadows, and scatters evenly.
+struct WaterFloor {
+    double height = -0.5;            ///< world units, as all lengths here: its y
+    double depth = 0.5;              ///< under level water
+    vec3 color{0.60f, 0.54f, 0.42f}; ///< linear albedo
+    double tile = 0; ///< side of tiles, which have its color and half of it by turns from x = z = 0 on; 0: none
 };
 
 /// A picture of a ball on the device: what --shading matcap looks up.

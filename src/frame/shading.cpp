@@ -84,19 +84,15 @@ std::uint32_t shadingOf(std::span<const Instance> instances, const RenderOptions
     switch (options.shading) {
     case Shading::physical: return std::ranges::any_of(instances, conserves) ? kShadingConserving : kShadingPhysical;
     case Shading::phong: return kShadingPhong;
-    case Shading::table:
-        if (!options.tableAtVertices) return kShadingTable;
-        if (!options.lighting.others.empty())
-            fail(Failure::usage, "a table that is looked up at vertices is that of one light, and {} are asked for",
-                 1 + options.lighting.others.size());
-        return kShadingVertexTable;
+    case Shading::table: return options.tableAtVertices ? kShadingVertexTable : kShadingTable;
+    case Shading::water: return kShadingWater;
     case Shading::matcap: break;
     }
     return kShadingMatcap;
 }
 
 pass::Material toPass(const Material& material, std::uint32_t shading) {
-    const float least = shading == kShadingConserving ? 0.0f : 0.05f;
+    const float least = shading == kShadingConserving || shading == kShadingWater ? 0.0f : 0.05f;
     return {.albedo = material.albedo,
             .roughness = std::clamp(material.roughness, least, 1.0f),
             .environmentLevel = 0,
@@ -137,6 +133,11 @@ void Renderer::Parts::makeOwnMatcap(const Material& material, const RenderOption
 void Renderer::Parts::useShading(Frame& frame) {
     const PhongCoefficients& phong = frame.options.phong;
     frame.inputs.light.phong = {phong.ambient, phong.diffuse, phong.specular, phong.exponent};
+    const WaterFloor& floor = frame.options.waterFloor;
+    frame.inputs.light.floorColor = floor.color;
+    frame.inputs.light.floorHeight = float(floor.height);
+    frame.inputs.light.floorDepth = float(floor.depth);
+    frame.inputs.light.floorTile = float(floor.tile);
     const auto use = [&](const Texture& texture) {
         frame.bindings[kBindShading] = {.view = texture.view.get(), .sampler = smooth.get()};
     };
@@ -185,6 +186,7 @@ void Renderer::Parts::otherLightPasses(VkCommandBuffer commands, Frame& frame) {
         useLight(frame, light);
         writeInputs(commands, frame);
         if (frame.castsShadows()) shadowPass(commands, frame);
+        if (frame.shading == kShadingVertexTable) surfacePass(commands, frame); // vertices know the light's direction
         lightPass(commands, frame, true);
     }
     useLight(frame, keyOf(frame.options.lighting)); // a picture with large triangles is recorded once more

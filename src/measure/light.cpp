@@ -27,7 +27,7 @@ void measureLight(SuiteContext& context, const TestScene& scene) {
     add(Method::metal).instance.material = {.roughness = 0.2f, .metallic = 1.0f};
     for (const auto& [method, shading] :
          {std::pair(Method::phong, Shading::phong), std::pair(Method::phongTable, Shading::table),
-          std::pair(Method::matcap, Shading::matcap)})
+          std::pair(Method::water, Shading::water), std::pair(Method::matcap, Shading::matcap)})
         add(method).options.shading = shading;
 
     const GpuMatcap ball = uploadMatcap(context.device, renderMatcap(context.device, {}, {}, dvec2(0), 256));

@@ -57,7 +57,7 @@ enum class Method {
     posedCage, posedCageTessellation, posedCageDicing, denseSkinnedOnDevice, densePosedOnHost,
     preparation, reliefRender,
     displacement, displacementAndBump, bump, undisplaced,
-    keyLight, keyLightWithShadows, keyLightWithOcclusion, threeLights, metal, phong, phongTable, matcap
+    keyLight, keyLightWithShadows, keyLightWithOcclusion, threeLights, metal, phong, phongTable, matcap, water
 };
 // clang-format on
 enum class Suite { bandwidth, frame, animate, memory, scaling, startup, detail, light };

@@ -114,6 +114,7 @@ constexpr Word<Method> kMethods[] = {
     {Method::phong, "phong"},
     {Method::phongTable, "table"},
     {Method::matcap, "matcap"},
+    {Method::water, "water over a floor"},
 };
 
 constexpr Word<Suite> kSuites[] = {
@@ -142,7 +143,7 @@ constexpr bool isComplete(const Row (&table)[kCount], Enum Row::*value, Enum las
 }
 static_assert(isComplete(kMetrics, &MetricInfo::metric, Metric::otherLightsTime));
 static_assert(isComplete(kUnits, &Word<Unit>::value, Unit::decibels));
-static_assert(isComplete(kMethods, &Word<Method>::value, Method::matcap));
+static_assert(isComplete(kMethods, &Word<Method>::value, Method::water));
 static_assert(isComplete(kSuites, &Word<Suite>::value, Suite::light));
 static_assert(isComplete(kAxes, &Word<Axis>::value, Axis::segmentPixels));
 static_assert(isComplete(kOrigins, &Word<Origin>::value, Origin::computed));

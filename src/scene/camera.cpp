@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "scene/loading.h"
 #include "scene/scene.h"
@@ -74,6 +75,17 @@ std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene&
 std::optional<GpuMatcap> makeMatcap(Device& device, const LoadedScene& loaded) {
     if (!loaded.matcap) return {};
     return uploadMatcap(device, *loaded.matcap);
+}
+
+WaterFloor makeWaterFloor(const WaterFloor& desc, const LoadedObject& object) {
+    const double unit = object.coordinates().unit;
+    double lowest = std::numeric_limits<double>::max();
+    for (const vec3& p : object.cage.positions) lowest = std::min(lowest, double(p.y));
+    WaterFloor floor = desc;
+    floor.depth /= unit;
+    floor.tile /= unit;
+    floor.height = lowest - floor.depth;
+    return floor;
 }
 
 Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor) {

@@ -44,7 +44,8 @@ struct ShadingDesc {
     Shading shading = Shading::physical;
     PhongCoefficients phong;
     bool tableAtVertices = false;
-    std::string matcap; ///< path of a picture of a ball; empty: one of the object's own material and lights
+    WaterFloor waterFloor; ///< in cage units; its height follows from the cage: see makeWaterFloor
+    std::string matcap;    ///< path of a picture of a ball; empty: one of the object's own material and lights
 };
 
 } // namespace relief

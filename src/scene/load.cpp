@@ -230,7 +230,8 @@ void loadLight(LoadedScene& scene, const SceneDesc& desc) {
     const std::string& path = desc.lighting.environment;
     if (path.empty()) return;
     const EnvironmentFile file = readEnvironment(path, desc.lighting.shape);
-    scene.environment = makeEnvironment(file.picture, desc.object.material.conservesEnergy());
+    scene.environment =
+        makeEnvironment(file.picture, desc.object.material.conservesEnergy() || desc.shading.shading == Shading::water);
     if (file.isChosen) scene.environmentNote = fmt::format("{}: {}", path, describe(file.picture, file.layout));
 }
 

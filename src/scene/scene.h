@@ -220,12 +220,12 @@ Camera placeCamera(const CameraOptions& options, const Bounds& bounds);
 
 /// `azimuth`: the camera's, degrees; the default key light follows it. `environment`: null for the built-in studio.
 Lighting makeLighting(const LightingDesc& desc, double azimuth, const GpuEnvironment* environment);
-/// Uploads the environment of a scene; empty where it has none of its own.
+/// Upload the environment and the matcap of a scene; empty where it has none of its own.
 std::optional<GpuEnvironment> makeEnvironment(Device& device, const LoadedScene& loaded);
-/// Uploads the matcap of a scene; empty where it has none of its own.
 std::optional<GpuMatcap> makeMatcap(Device& device, const LoadedScene& loaded);
-/// `textureColor`: LoadedObject's.
-Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor = {});
+/// The floor of a scene in the object's own coordinates: so deep under the lowest point of its cage.
+WaterFloor makeWaterFloor(const WaterFloor& desc, const LoadedObject& object);
+Material makeMaterial(const MaterialDesc& desc, const std::optional<vec3>& textureColor = {}); ///< LoadedObject's
 
 // --- files --------------------------------------------------------------------------------------------------------
 

@@ -112,6 +112,7 @@ inline constexpr Word<Shading> kShadings[] = {
     {"phong", Shading::phong, "k_a c + k_d c (n.l) + k_s (v.r)^e"},
     {"table", Shading::table, "the same, from a table looked up at n.l and v.r"},
     {"matcap", Shading::matcap, "a picture of a ball, looked up by the normal as the eye sees it"},
+    {"water", Shading::water, "clear water over a floor; --color is what its depth lets through"},
 };
 
 inline constexpr Word<Show> kShows[] = {

@@ -67,7 +67,7 @@ TEST_F(LightVerbs, areSeenInThePicture) {
          {"--shading physical", "--occlusion 0", "--environment-azimuth 0", "--light -25,50", "--light -25 50"})
         EXPECT_EQ(drawn(same), usual) << same;
     for (const char* other :
-         {"--shading phong", "--shading table", "--shading matcap", "--metallic 1", "--roughness 0",
+         {"--shading phong", "--shading table", "--shading matcap", "--shading water", "--metallic 1", "--roughness 0",
           "--light 5,50 --light 90,20", "--light 5,50,1", "--light 5,50,2.9,1,0,0", "--occlusion 0.5"})
         EXPECT_NE(drawn(other), usual) << other;
 
@@ -81,7 +81,8 @@ TEST_F(LightVerbs, areSeenInThePicture) {
     expectRefused(draw("--light 40,50,-1"), Failure::usage, {"--light", "AZ,EL,STRENGTH"});
     expectRefused(draw("--light 40,50,1,1"), Failure::usage, {"--light"});
     expectRefused(draw("--metallic 1.1"), Failure::usage, {"0..1"});
-    expectRefused(draw("--shading table --table-at vertices --light 1,2 --light 3,4"), Failure::usage, {"one light"});
+    EXPECT_NE(drawn("--shading table --table-at vertices --light 1,20 --light 90,40"),
+              drawn("--shading table --table-at vertices --light 1,20"));
     expectRefused(draw("--shading matcap", {"--matcap", sky}), Failure::input, {"square", "64 x 32"});
 }
 
@@ -103,6 +104,32 @@ TEST_F(LightVerbs, turnTheEnvironmentAsItsPictureIsTurned) {
         EXPECT_LE(most, 1.5f / 255) << material;
         EXPECT_NE(turned, drawn(std::string("--no-shadows --environment ") + sky + " " + material)) << material;
     }
+}
+
+// Depth and tiles of a floor are in cage units, from the cage's lowest point on: a huge cage high above shows the same
+// as a small one with a floor so much deeper.
+TEST_F(LightVerbs, drawWaterOverAFloor) {
+    const auto writePlane = [&](const char* name, double scale, double height) {
+        std::string text;
+        for (const auto& [x, z] : {std::pair(-1, 1), std::pair(1, 1), std::pair(1, -1), std::pair(-1, -1)})
+            text += fmt::format("v {} {} {}\n", scale * x, height, scale * z);
+        putFile(folder / name, text + "f 1 2 3 4\n");
+    };
+    writePlane("near.obj", 1, 0), writePlane("far.obj", 1e7, 3e7);
+    const auto drawPlane = [&](const char* name, const std::string& floor) {
+        expectDone(relief({"render", folder / name, "-o", folder / "w.png", "--water-floor", floor, "-q"},
+                          "--shading water --size 64,64 --rate 8 --elevation 40 --no-shadows"));
+        return readImage(folder / "w.png").texels;
+    };
+    const std::vector<float> near = drawPlane("near.obj", "0.5,0.8,0.2,0.1,0.4"),
+                             far = drawPlane("far.obj", "5e6,0.8,0.2,0.1,4e6");
+    EXPECT_NE(drawPlane("near.obj", "1.5,0.8,0.2,0.1,0.4"), near);
+    EXPECT_NE(drawPlane("near.obj", "0.5"), near);
+    double different = 0;
+    for (std::size_t i = 0; i < near.size(); ++i) different += std::abs(near[i] - far[i]) > 1.5 / 255;
+    EXPECT_LT(different / double(near.size()), 0.01);
+    for (const char* bad : {"0", "-1", "0.5,1,1", "0.5,1,1,2", "0.5,1,1,1,-1", "deep"})
+        expectRefused(draw(std::string("--shading water --water-floor=") + bad), Failure::usage, {"--water-floor"});
 }
 
 TEST_F(LightVerbs, drawBallsAndTables) {

@@ -63,6 +63,46 @@ TEST_F(Voids, ofIntegersAreFilledToo) {
         EXPECT_NEAR(double(texel) * 65535, std::round(double(texel) * 65535), 2e-3) << "a number of the format";
 }
 
+/// A chunk of a PNG: length, type, data and checksum (section 5.3, annex D).
+std::string pngChunk(const std::string& type, const std::string& data) {
+    const auto bigEndian = [](std::uint32_t n) {
+        return std::string{char(n >> 24), char(n >> 16), char(n >> 8), char(n)};
+    };
+    std::uint32_t crc = ~0u;
+    for (const char letter : type + data) {
+        crc ^= std::uint8_t(letter);
+        for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1u) != 0 ? 0xedb88320u : 0u);
+    }
+    return bigEndian(std::uint32_t(data.size())) + type + data + bigEndian(~crc);
+}
+
+// A PNG says which grey is nothing by making it transparent, as GDAL writes it.
+TEST_F(Voids, ofPngsAreTheGreyThatIsTransparent) {
+    const auto loadPng = [&](std::uint16_t nothing, SampleType type, const std::string& transparent) {
+        const float most = type == SampleType::uint16 ? 65535 : 255;
+        Image image{16, 16, 1, {}};
+        for (int i = 0; i < 256; ++i)
+            image.texels.push_back(float(i / 32 == 2 && i % 16 < 4 ? nothing : 100 + i % 16) / most);
+        writeImage(folder / "b.png", image, type);
+        std::string bytes = readFile(folder / "b.png");
+        constexpr std::size_t kAfterHeader = 8 + 12 + 13;
+        if (!transparent.empty()) bytes.insert(kAfterHeader, pngChunk("tRNS", transparent));
+        putFile(folder / "b.png", bytes);
+        warnings.lines.clear();
+        return loadHeightMap(folder / "b.png", {.scale = most}, warnings.warn()).decoded;
+    };
+    for (const std::uint16_t nothing : {0, 115, 65535}) {
+        const HeightMap map = loadPng(nothing, SampleType::uint16, {char(nothing >> 8), char(nothing)});
+        EXPECT_NEAR(map.lowest * 65535, 100, 0.01) << nothing;
+        EXPECT_LT(map.highest * 65535, 115.01) << nothing;
+        EXPECT_TRUE(warnings.has(fmt::format("texels are voids ({} by its tRNS)", nothing)));
+    }
+    EXPECT_NEAR(loadPng(255, SampleType::uint8, {0, char(255)}).highest * 255, 115, 0.01);
+    // Without the chunk they are heights as all others.
+    EXPECT_EQ(loadPng(0, SampleType::uint16, "").lowest, 0);
+    EXPECT_FALSE(warnings.has("voids"));
+}
+
 TEST_F(Voids, withoutATagStandApart) {
     for (const float nothing : {-9999.0f, -32767.0f, -32768.0f, -99999.0f, kLowestFloat, -1e38f, 9.96921e36f}) {
         EXPECT_EQ(rangeOf({0, nothing, 300, 200}), std::pair(0.0f, 300.0f)) << nothing;

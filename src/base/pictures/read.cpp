@@ -349,6 +349,7 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
     const OIIO::ImageSpec& spec = image.spec;
     std::vector<ImagePart> parts = partsOf(image);
     image.input->close();
+    const PngFacts png = image.format == "png" ? readPngFacts(picture) : PngFacts();
     return {.width = spec.width,
             .height = spec.height,
             .channels = spec.nchannels,
@@ -357,8 +358,8 @@ ImageInfo readImageInfo(const std::string& path, const ImageLimits& limits) {
             .sampleBytes = int(spec.format.size()),
             .isFloat = spec.format.is_floating_point(),
             .isSigned = isSignedInteger(spec.format),
-            .noData = image.format == "tiff" ? readTiffFacts(path).noData : std::nullopt,
-            .colorTag = image.format == "png" ? readPngFacts(picture).colorTag : profileOf(spec),
+            .noData = image.format == "tiff" ? readTiffFacts(path).noData : png.noData,
+            .colorTag = image.format == "png" ? png.colorTag : profileOf(spec),
             .channelNames = spec.channelnames,
             .parts = std::move(parts),
             .attributes = attributesOf(spec)};
