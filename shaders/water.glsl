@@ -4,16 +4,16 @@
 #define RELIEF_WATER_GLSL
 
 const float kWaterIndex = 1.333;
-// What water throws back of light that comes from its inner side evenly from everywhere, and what it lets through of such light
-// from outside: 1 - integral of F 2 cos sin over the half space, and (1 - that) n^-2 back (Judd 1942).
+// Of light that comes evenly from everywhere (Judd 1942): from outside water lets T = 1 - integral of 2 F cos sin over the angles
+// of incidence through; from inside it lets T / n^2 through and reflects the rest.
 const float kWaterInnerReflectance = 0.4746, kWaterOuterTransmittance = 0.9336;
 
-// The cosine to the normal of the ray inside, of that of the ray outside (Snell).
+// The cosine between the ray inside and the normal, of the cosine between the ray outside and the normal, 0..1 (Snell).
 float cosineInWater(float outside) {
     return sqrt(1.0 - (1.0 - outside * outside) / (kWaterIndex * kWaterIndex));
 }
 
-// The share of light that is reflected, the mean of both polarizations (Fresnel).
+// The share of light that is reflected, the mean of both polarizations (Fresnel); `outside` as above.
 float waterFresnel(float outside) {
     float inside = cosineInWater(outside);
     float s = (outside - kWaterIndex * inside) / (outside + kWaterIndex * inside);
@@ -21,7 +21,8 @@ float waterFresnel(float outside) {
     return 0.5 * (s * s + p * p);
 }
 
-// A line of sight in the water: where it meets the floor, and how long it is. Lines that rise meet nothing: they are long.
+// A line of sight in the water: where it meets the floor, and how long it is, in units of the object. Lines that rise meet
+// nothing: they are a hundred depths of the floor long.
 struct WaterRay {
     vec2 floorAt; // x and z
     float reach;
@@ -34,7 +35,7 @@ WaterRay waterRay(vec3 position, vec3 n, vec3 v) {
     return WaterRay(position.xz + reach * d.xz, reach);
 }
 
-// The floor's part that neighbouring pixels see, along x and z.
+// How far along x and z the floor points of neighbouring pixels lie from `at`, in units of the object.
 vec2 floorFootprint(vec2 at) {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = inputs.view.pictureSize;
     vec2 footprint = vec2(1e-6);

@@ -63,8 +63,9 @@ LoadedObject loadObject(const BakeArgs& args, const Warn& warn) {
     return object;
 }
 
-/// How far vertices move for a cage that nobody has given a distance for: past the sculpt, as some thousand lines that
-/// begin on the surface find it, and no farther, because cages that are inflated more begin lines above other sheets.
+/// How far vertices of the cage move where no distance is given, in units of the object: past the sculpt, as twenty
+/// thousand lines from the surface find it (four per face where faces are many), and no farther, because lines of cages
+/// that are inflated more begin above other sheets.
 double chooseInflation(const ReferenceSurface& reference, const MeasuredSurface& sculpt, const LineSearch& lines) {
     constexpr int kLines = 20'000;
     constexpr double kMore = 1.5; // lines miss the tips

@@ -13,8 +13,9 @@ public:
     FilesTogether& operator=(const FilesTogether&) = delete;
     ~FilesTogether(); ///< drops files that have not taken their places
 
-    /// Puts all files in their places. Throws Failure::file: before the first of them where a folder takes no more
-    /// names, which is all that a full disk can still refuse.
+    /// Puts all files in their places. Throws Failure::file where a folder takes no more names, which is all that a
+    /// full disk can still refuse; no file has taken its place then. Where a later rename fails, as of a folder that
+    /// was removed meanwhile, the files before it keep their places.
     void takePlaces();
 };
 

@@ -129,7 +129,8 @@ enum class SampleType { uint8, uint16, half, real };
 /// Failure::file when writing fails.
 void writeImage(const std::string& path, const Image& image, SampleType sample, const std::string& compression = "");
 
-/// The same with text in its header. Throws as the other writeImage does.
+/// Writes a .exr, .tif or .png with text in its header: each name and text is one line. Throws as the other writeImage
+/// does.
 void writeImage(const std::string& path, const Image& image, SampleType sample, const ImageAttributes& attributes);
 
 /// One channel of an EXR: its name, which may hold the layer's ("N.X"), and half or real samples.

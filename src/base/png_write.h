@@ -8,8 +8,8 @@
 namespace relief {
 
 /// Returns the bytes of a PNG of `sample`s, which are integers; equal pictures are equal bytes. The values are clamped
-/// to 0..1. `path` stands for the picture in messages. Throws Failure::file for more than 4 channels.
-/// `attributes` become chunks of text (tEXt).
+/// to 0..1. `path` stands for the picture in messages. `attributes` become chunks of text (tEXt): names are up to 79
+/// characters long. Throws Failure::file for more than 4 channels.
 std::string encodePng(const std::string& path, const Image& image, SampleType sample,
                       const ImageAttributes& attributes = {});
 

@@ -20,7 +20,7 @@ public:
     /// Computes the distance from `p` to the nearest point. `limit`: a distance within which there is one; the closer
     /// the quicker.
     [[nodiscard]] double distance(const dvec3& p, double limit) const;
-    /// Finds that point.
+    /// Finds the nearest point itself.
     [[nodiscard]] NearestPoint nearest(const dvec3& p) const;
     /// Finds what MeasuredSurface::nearestOnLine does.
     [[nodiscard]] std::optional<LineHit> nearestOnLine(const dvec3& p, const dvec3& direction, const LineReach& reach,

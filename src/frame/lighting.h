@@ -95,8 +95,8 @@ enum class Shading {
 /// through level water, without caustics and shadows, and scatters evenly.
 struct WaterFloor {
     double height = -0.5;            ///< world units, as all lengths here: its y
-    double depth = 0.5;              ///< under level water
-    vec3 color{0.60f, 0.54f, 0.42f}; ///< linear albedo
+    double depth = 0.5;              ///< under level water, above 0
+    vec3 color{0.60f, 0.54f, 0.42f}; ///< linear albedo, 0..1
     double tile = 0; ///< side of tiles, which have its color and half of it by turns from x = z = 0 on; 0: none
 };
 

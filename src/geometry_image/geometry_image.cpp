@@ -15,8 +15,8 @@ namespace {
 
 constexpr int kMostExtremes = 20;    ///< paths that are added to a cut
 constexpr double kWorthAPath = 0.95; ///< a path stays where it takes the stretch below this share of itself
-constexpr int kStretchSteps = 1;     ///< what makes a start; relaxing goes the rest of the way
-constexpr int kRelaxingSteps = 60;
+constexpr int kStretchSteps = 1;     ///< a start, from which relaxing goes on
+constexpr int kRelaxingSteps = 60;   ///< at most: relaxing ends where a step gains too little
 
 /// Extends the cut through the points that the map over a disk stretches most, one after another, while that makes the
 /// stretch smaller (Gu et al. 2002, section 3.2).
@@ -66,8 +66,8 @@ void setSample(GeometryImage& image, std::size_t index, const SurfaceSample& sam
 
 using Settle = SpreadSurface::Settle;
 
-/// The border's samples: each path once, so that its mate has the same bits. `settle` makes the same of the same point,
-/// which nodes are several times.
+/// The border's samples: each path once, so that its mate has the same bits. Ends of paths are evaluated once per path:
+/// `settle` gives the same for the same point.
 void sampleBorder(GeometryImage& image, const CutMesh& mesh, std::span<const BorderPath> paths, const Settle& settle) {
     const int scale = (image.size - 1) / image.sewing.sideSegments;
     std::vector<int> firsts;

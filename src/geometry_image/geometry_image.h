@@ -74,9 +74,9 @@ public:
 
     /// Samples the surface at a multiple of sideSegments() segments per side. Throws Failure::usage for another size,
     /// and Failure::input where the triangles of a mip cannot be sewn.
-    /// `settle` is called once for each point of the surface that is a sample or several, with its position and normal,
-    /// which it may change: where the mesh is coarser than the surface that it stands for, to a point of that. The
-    /// normal need not be of unit length.
+    /// `settle` is called with the position and the normal of each sample, and may move both to the surface that the
+    /// mesh only approximates. Samples of both sides of a cut are settled together; ends of paths are settled once per
+    /// path, so that it must give the same for the same point. The normal need not be of unit length.
     using Settle = std::function<void(dvec3& position, dvec3& normal)>;
     [[nodiscard]] GeometryImage sample(int size, const Settle& settle = {}) const;
     /// Segments along one side of the coarsest image that sews: (options.size - 1) / 2^k.

@@ -11,7 +11,7 @@
 namespace relief {
 namespace {
 
-constexpr double kShearWeight = 4;
+constexpr double kShearWeight = 4; ///< what rows and columns that are not perpendicular cost, beside the stretch
 
 /// A triangle of the disk. With u = p2 - p1 and v = p3 - p1 in the plane, Q1 and Q2 the same on the surface and
 /// D = u x v, the surface runs along s and t by S_s = (Q1 v.y - Q2 u.y) / D and S_t = (Q2 u.x - Q1 v.x) / D.

@@ -29,7 +29,8 @@ std::vector<dvec2> placeOnCircle(const CutMesh& mesh, const Disk& disk, std::spa
 SpreadMap spreadInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2> border, int steps);
 
 /// Moves all inner copies together, downhill: to where the L2 stretch of triangles is smaller (Sander et al. 2001,
-/// section 3), and rows and columns of samples meet at wider angles. No triangle turns over.
+/// section 3), and rows and columns of samples meet at wider angles. No triangle turns over. `steps`: at most; it ends
+/// where a step gains less than a thousandth of the energy, or where there is no step downhill.
 void relaxInside(const CutMesh& mesh, const Disk& disk, std::vector<dvec2>& st, int steps);
 
 } // namespace relief

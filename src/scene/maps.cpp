@@ -229,7 +229,8 @@ void warnOfOtherOrigin(const ObjectDesc& desc, std::uint64_t topology, const War
     if (origin->topology != topology)
         warn(fmt::format("{}: this map was baked over another cage than {}, or with another --weld", file, desc.cage));
     const double mid = height.mid.value_or(info.hasUnit() ? 0 : 0.5), scale = height.scale.value_or(1);
-    const auto isSame = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); }; // digits of a report
+    // Equal but for the digits that relief bake does not print.
+    const auto isSame = [](double a, double b) { return std::abs(a - b) <= 1e-6 * std::abs(b); };
     if (!isSame(mid, origin->mid) || !isSame(scale, origin->scale))
         warn(fmt::format("{}: this map was baked for --mid {} --scale {}; it is read with --mid {} --scale {}", file,
                          origin->mid, origin->scale, mid, scale));

@@ -39,8 +39,8 @@ RowVectorXd waveWeights(const CapPattern& pattern, double eigenvalue, const Wave
     return weights;
 }
 
-/// To either side of the middle of a cap, nearly perpendicular however thin the face is: by the angle that stands for
-/// one face, 45 degrees before the middle and behind it.
+/// The angle of tangent `i`, 0 or 1, in radians from edge 0 around the vertex, where each face takes `faceAngle`. The
+/// two lie 45 degrees before and behind the middle of the cap: they are nearly perpendicular however thin the face is.
 double angleOf(const CapPattern& pattern, double faceAngle, int i) {
     return faceAngle * (pattern.face + 0.5) + kPi * (i == 0 ? -0.25 : 0.25);
 }
@@ -114,13 +114,14 @@ MatrixXd ringMatrix(CapPattern pattern) {
 
 constexpr int kRefinements = 120; ///< what shrinks to 2/3 per refinement is below 1e-20 then
 
+/// The weights for the limit point, by the rules of the ring: the left eigenvector of the eigenvalue 1.
 RowVectorXd limitOf(const MatrixXd& ring) {
     RowVectorXd row = RowVectorXd::Unit(ring.cols(), 0);
     for (int i = 0; i < kRefinements; ++i) row = (row * ring).eval();
     return row / row.sum();
 }
 
-/// p0 + 2^n (v_n - p0).
+/// The rows of p0 + 2^n (v_n - p0) for n = 1, 2, ..., v_n the vertex after n refinements.
 MatrixXd dartMeans(const CapPattern& pattern) {
     const MatrixXd ring = ringMatrix(pattern);
     const RowVectorXd limit = limitOf(ring);
@@ -128,7 +129,7 @@ MatrixXd dartMeans(const CapPattern& pattern) {
     MatrixXd rows(pattern.meanCount(), ring.cols());
     for (int i = 0; i < rows.rows(); ++i) {
         away = (2 * away * ring).eval();
-        away -= away.sum() * limit; // rounding
+        away -= away.sum() * limit; // the sum is 0 but for rounding, which would grow
         rows.row(i) = limit + away;
     }
     return rows;

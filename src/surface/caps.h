@@ -101,8 +101,8 @@ Eigen::MatrixXd ringTangents(const CapPattern& pattern);
 
 // Pieces are at (1,0), at (1,1) and at (0,1); of triangles at (1,0), in the middle and at (0,1).
 
-/// The matrix A: the points around a cap of half the size as sums of those around the cap. At a dart with a window of
-/// C - p0, less p0: rows do not sum up to 1.
+/// The matrix A: the points around a cap of half the size as sums of those around the cap. Around a dart with
+/// a window it maps C - p0 instead of C, and its rows do not sum up to 1.
 Eigen::MatrixXd refinementAround(const CapPattern& pattern);
 
 /// What Q is made of.
@@ -113,7 +113,8 @@ public:
 
     [[nodiscard]] const CapPattern& pattern() const { return pattern_; }
     [[nodiscard]] int levelCount() const { return int(levels_.size()); }
-    /// Of the points around the cap for the limit point of the vertex; none at a dart with a window (ringLimit).
+    /// Weights of the points around the cap for the limit point of the vertex; empty at a dart with a window, whose
+    /// limit point depends on the whole ring: see ringLimit().
     [[nodiscard]] const Eigen::RowVectorXd& limitWeights() const { return limit_; }
     /// Weights of C - p0 for Q: a row per control point of a piece. `level`: n >= 1.
     [[nodiscard]] const Eigen::MatrixXd& pieceWeights(int level, int piece) const { return levels_[level - 1][piece]; }

@@ -30,7 +30,8 @@ struct SurfaceOptions {
     Scheme scheme = Scheme::catmark;
     int isolation = 6; ///< levels of adaptive refinement around features, 0..10
     EndCapKind endCaps = EndCapKind::exact;
-    /// Of these levels, those around extraordinary vertices: exact end caps need no more. Gregory patches have all.
+    /// Of these levels, those around extraordinary vertices, 0..isolation: exact end caps need no more than kSeparation.
+    /// With Gregory patches it is not read: all levels are around extraordinary vertices.
     int separation = kSeparation;
 };
 

@@ -39,8 +39,8 @@ std::string encode(unsigned int code) {
     return text;
 }
 
-/// Where its server goes away Xlib ends the process, whatever is done about it: with the exit code of a device that is
-/// lost, then, and a line of this program. GLFW has loaded the library where there is one.
+/// Xlib ends the process when its server goes away, even where its handler returns. This handler ends it first, with a
+/// line of this program and the exit code of a lost device. GLFW has loaded the library where it shows windows by X.
 void answerLostDisplay() {
     using Answer = int (*)(void*);
     void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);

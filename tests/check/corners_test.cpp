@@ -23,8 +23,8 @@ TEST(Corners, ofExactNormalsTurnLittle) {
         const CornerReport report = reportCorners(reference, corners, exactNormals(reference, corners));
         // Corners of three faces on one edge are not counted: their tangents nearly coincide.
         EXPECT_EQ(report.count + (named.name == "nonManifoldEdge" ? 8 : 0), corners.size()) << named.name;
-        // Around many faces normals arrive at their limit slowly (tests/surface, "HaveNormalsThatArriveAsFastAs.."): at
-        // 2^-10 of a face from 17 of them, 11 degrees are left.
+        // Around many faces normals arrive at their limit slowly (a test of exact end caps compares how slowly with the
+        // eigenvalues): at 2^-10 of a face from the vertex of 17 faces, less than 11 degrees are left.
         EXPECT_LT(report.max, named.name == "poles17" ? 11 : 2) << named.name << " face " << report.worst.face;
     }
 }

@@ -83,7 +83,7 @@ TEST(GeometryImage, sewsEveryShapeAtEveryMip) {
         EXPECT_EQ(surface.report().boundaryCount, shape.boundaries);
         EXPECT_LT(surface.report().stretch, shape.mostStretch);
         EXPECT_GE(surface.report().stretch, 1 - 1e-9);
-        EXPECT_LE(surface.report().stretch, 1.02 * surface.report().firstStretch); // shear counts, too
+        EXPECT_LE(surface.report().stretch, 1.02 * surface.report().firstStretch); // shear is made smaller as well
         EXPECT_LE(surface.report().cutLength, shape.mostCut);
         EXPECT_EQ(image.mipCount(), shape.mips);
         for (int mip = 0; mip < image.mipCount(); ++mip) {
@@ -140,7 +140,6 @@ TEST(GeometryImage, errorsFallWithTheSquareOfTheSize) {
     }
 }
 
-// The outer and the inner boundary of a ring: every open edge of the image lies on one of them.
 // Rows of samples that meet at small angles on a long arm make triangles that look anywhere.
 TEST(GeometryImage, holdsLongArms) {
     const DenseMesh jack = jackMesh(48);
@@ -165,6 +164,7 @@ TEST(GeometryImage, takesSamplesFromAFinerSurface) {
     EXPECT_GT(errorOf(sphereMesh(48), toMesh(surface.sample(65))), 5 * errorOf(sphereMesh(48), toMesh(image)));
 }
 
+// The outer and the inner boundary of a ring: every open edge of the image lies on one of them.
 TEST(GeometryImage, keepsBoundaries) {
     const DenseMesh ring = gridMesh(
         64, 8,
