@@ -53,8 +53,10 @@ vec2 floorFootprint(vec2 at) {
 // The share of light tiles in a box of the floor: tiles are light and dark by turns, and the mean over a box of a product of square
 // waves is the product of differences of triangle waves (Quilez, "Filtering the checkerboard pattern").
 float lightTiles(vec2 at, vec2 footprint) {
-    vec2 p = at / inputs.light.floorTile, w = footprint / inputs.light.floorTile;
+    vec2 p = at / inputs.light.floorTile;
+    vec2 w = max(footprint / inputs.light.floorTile, 1e-5 * max(abs(p), vec2(1))); // no less than differences of p are precise
     vec2 waves = 2.0 * (abs(fract(0.5 * (p - 0.5 * w)) - 0.5) - abs(fract(0.5 * (p + 0.5 * w)) - 0.5)) / w;
+    waves = clamp(waves, vec2(-1), vec2(1));
     return 0.5 + 0.5 * waves.x * waves.y;
 }
 

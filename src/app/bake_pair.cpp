@@ -68,7 +68,8 @@ LoadedObject loadObject(const BakeArgs& args, const Warn& warn) {
 /// that are inflated more begin above other sheets.
 double chooseInflation(const ReferenceSurface& reference, const MeasuredSurface& sculpt, const LineSearch& lines) {
     constexpr int kLines = 20'000;
-    constexpr double kMore = 1.5; // lines miss the tips
+    constexpr double kMore = 1.5;   // lines miss the tips
+    constexpr double kLeast = 0.01; // of the reach: past the rounding of positions, where the sculpt is nowhere above
     const SculptLines along(reference, sculpt, lines);
     const int perSide = std::clamp(int(std::ceil(std::sqrt(double(kLines) / reference.faceCount()))), 2, 32);
     double highest = 0;
@@ -79,7 +80,7 @@ double chooseInflation(const ReferenceSurface& reference, const MeasuredSurface&
             if (const std::optional<LineHit> hit = along.find(along.lineAt(face, uv)))
                 highest = std::max(highest, hit->height);
         }
-    return std::min(kMore * highest, lines.reach.front);
+    return std::clamp(kMore * highest, kLeast * lines.reach.front, lines.reach.front);
 }
 
 /// The cage that lines begin on, in the coordinates of the object's.

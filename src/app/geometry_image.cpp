@@ -242,11 +242,7 @@ int makeImage(const GeometryImageArgs& args) {
     facts.sampleSeconds = timed([&] {
         SpreadSurface::Settle settle;
         if (&finest == &source.finer)
-            settle = [&](dvec3& position, dvec3& normal) {
-                const NearestPoint nearest = original.nearest(position);
-                const dvec3 there = normalAt(finest, nearest);
-                if (glm::dot(there, normal) > 0) position = nearest.point, normal = there; // not through a thin sheet
-            };
+            settle = [&](dvec3& position, dvec3& normal) { moveToNearest(finest, original, position, normal); };
         image = surface->sample(args.size, settle);
     });
     surface.reset();

@@ -72,5 +72,7 @@ private:
 /// From now on an interrupt (SIGINT, SIGTERM, SIGHUP) removes everything temporary and ends the program with exit code
 /// 128 + the signal's number: 130 for Ctrl-C. Call it first in main: threads that run already are not covered.
 void endCleanlyOnInterrupt();
+/// Ends the process with a line on stderr, from any thread: temporary files go, destructors do not run.
+[[noreturn]] void endAtOnce(std::string_view line, int exitCode);
 
 } // namespace relief

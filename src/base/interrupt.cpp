@@ -28,15 +28,15 @@ Temporaries& temporaries() {
     return all;
 }
 
-[[noreturn]] void exitInterrupted(int signal) {
+} // namespace
+
+void endAtOnce(std::string_view line, int exitCode) {
     const std::lock_guard lock(temporaries().mutex); // kept to the end: nobody makes another one
     std::error_code ignored;
     for (const std::string& path : temporaries().paths) fs::remove_all(path, ignored);
-    printOnStderr("relief: interrupted\n");
-    _exit(128 + signal);
+    printOnStderr(line);
+    _exit(exitCode);
 }
-
-} // namespace
 
 Temporary::Temporary(const std::function<std::string()>& make) {
     const std::lock_guard lock(temporaries().mutex); // an interrupt finds nothing that is not listed
@@ -65,7 +65,7 @@ void endCleanlyOnInterrupt() {
         std::thread([watched] {
             int signal = 0;
             sigwait(&watched, &signal);
-            exitInterrupted(signal);
+            endAtOnce("relief: interrupted\n", 128 + signal);
         }).detach();
     } catch (const std::system_error&) { // no more threads for this user: then an interrupt ends the program at once
         pthread_sigmask(SIG_SETMASK, &before, nullptr);

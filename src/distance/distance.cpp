@@ -249,6 +249,12 @@ SampledDistance measureOneWay(const MeasuredSurface& from, const MeasuredSurface
     return result;
 }
 
+void moveToNearest(const DenseMesh& mesh, const MeasuredSurface& measured, dvec3& position, dvec3& normal) {
+    const NearestPoint nearest = measured.nearest(position);
+    const dvec3 there = normalAt(mesh, nearest);
+    if (glm::dot(there, normal) > 0) position = nearest.point, normal = there;
+}
+
 double SurfaceDistance::rms() const { return std::sqrt(0.5 * (forth.rms * forth.rms + back.rms * back.rms)); }
 double SurfaceDistance::rmsError() const { return std::max(forth.rmsError, back.rmsError); }
 double SurfaceDistance::hausdorff() const { return std::max(forth.max, back.max); }

@@ -47,6 +47,11 @@ struct NearestPoint {
 /// The normal of a mesh at such a point, between those of the triangle's corners; not of unit length.
 dvec3 normalAt(const DenseMesh& mesh, const NearestPoint& nearest);
 
+class MeasuredSurface;
+/// Moves a point and its normal to the nearest point of a mesh, which `measured` was made of. Both stay where the mesh
+/// looks the other way there: beyond a thin sheet.
+void moveToNearest(const DenseMesh& mesh, const MeasuredSurface& measured, dvec3& position, dvec3& normal);
+
 /// A surface prepared for measuring: a tree for closest points and lines, and samples that cover it.
 ///
 /// Samples are the same in every run. A surface of fewer triangles than `sampleCount` has each triangle cut into n * n

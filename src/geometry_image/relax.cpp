@@ -36,9 +36,13 @@ TriangleEnergy energyOf(const RelaxedTriangle& t, const dvec2& u, const dvec2& v
     TriangleEnergy result{.planeArea = u.x * v.y - u.y * v.x};
     const double d = result.planeArea;
     if (!(d > 0)) return result;
-    constexpr double kLeast = 1e-300;
-    const double alongS = std::max(kLeast, v.y * v.y * t.q1q1 + u.y * u.y * t.q2q2 - 2 * u.y * v.y * t.q1q2);
-    const double alongT = std::max(kLeast, v.x * v.x * t.q1q1 + u.x * u.x * t.q2q2 - 2 * u.x * v.x * t.q1q2);
+    // |S_s|^2 and |S_t|^2 times d^2: differences, which rounding may bring to 0 and below.
+    const auto along = [&](double x, double y) {
+        constexpr double kRounding = 1e-12, kLeast = 1e-100;
+        const double terms = y * y * t.q1q1 + x * x * t.q2q2;
+        return std::max(terms - 2 * x * y * t.q1q2, std::max(kRounding * terms, kLeast));
+    };
+    const double alongS = along(u.y, v.y), alongT = along(u.x, v.x);
     const double product = std::sqrt(alongS * alongT), sum = alongS + alongT + kShearWeight * product;
     const double byS = 1 + kShearWeight * alongT / (2 * product), byT = 1 + kShearWeight * alongS / (2 * product);
     const double scale = t.area / (d * d), byD = -2 * scale * sum / d;

@@ -83,9 +83,7 @@ MeshError CompressionStudy::computeError(const DenseMesh& mesh) const {
 }
 
 void CompressionStudy::moveToReference(dvec3& position, dvec3& normal) const {
-    const NearestPoint nearest = reference_->nearest(position);
-    const dvec3 there = normalAt(referenceMesh_, nearest);
-    if (glm::dot(there, normal) > 0) position = nearest.point, normal = there; // not through a thin sheet
+    moveToNearest(referenceMesh_, *reference_, position, normal);
 }
 
 const Evaluated& CompressionStudy::evaluate(const Compression& compression) {

@@ -84,6 +84,12 @@ WaterFloor makeWaterFloor(const WaterFloor& desc, const LoadedObject& object) {
     WaterFloor floor = desc;
     floor.depth /= unit;
     floor.tile /= unit;
+    // What the device computes with single precision.
+    const auto isUsable = [](double length) { return length > 1e-6 && length < 1e6; };
+    if (!isUsable(floor.depth) || (floor.tile != 0 && !isUsable(floor.tile)))
+        fail(Failure::usage,
+             "--water-floor: {} and tiles of {} are not between a millionth and a million times the object's size",
+             desc.depth, desc.tile);
     floor.height = lowest - floor.depth;
     return floor;
 }

@@ -65,6 +65,8 @@ std::optional<Event> parseEvent(const std::string& line, const std::string& plac
     // What follows the name depends on the kind.
     for (int i = 0; i < countNumbers(*kind); ++i)
         if (!(words >> event.at[i]) || !std::isfinite(event.at[i])) refuse(line, place, "a number");
+    if (*kind == EventKind::point && (event.at[0] < 0 || event.at[0] > 1))
+        refuse(line, place, "a share of the widget's width, 0 to 1");
     std::string word;
     if (hasButton(*kind)) {
         const std::optional<Button> button = words >> word ? valueOf(kButtons, word) : std::nullopt;

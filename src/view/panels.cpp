@@ -151,7 +151,10 @@ void makeLight(ViewState& state, PanelWishes& wishes) {
     changes |= slide(wishes, "environment", scene.lighting.environmentAzimuth, -360, 360, "%.0f deg");
     changes |= tick(wishes, "shadows", scene.lighting.castsShadows);
     auto& material = scene.object.material;
+    const bool wasWater = scene.shading.shading == Shading::water;
     changes |= choose(wishes, "shading", scene.shading.shading, kShadings);
+    // Water wants a sharper environment, which is loaded with the object.
+    wishes.changesObject |= wasWater != (scene.shading.shading == Shading::water);
     changes |= ImGui::SliderFloat("roughness", &material.roughness, 0.05f, 1);
     keepPlace(wishes, "roughness", ImGui::CalcItemWidth());
     changes |= slide(wishes, "occlusion", scene.lighting.occlusionRadius, 0, 0.5);

@@ -175,7 +175,9 @@ void Viewer::watchProcesses() {
         const std::string complaints = lastLineOf(export_->complaints());
         export_.reset();
         state_.notice = *code == 0 ? "the turntable is written" : "";
-        if (*code != 0) state_.error = "the turntable was not written: " + complaints;
+        if (*code != 0)
+            state_.error = complaints.empty() ? fmt::format("the turntable ended with exit code {}", *code)
+                                              : "the turntable was not written: " + complaints;
         uiFrames_ = kFramesAfterEvent;
     }
     if (const std::optional<int> code = check_ ? check_->poll() : std::nullopt) {

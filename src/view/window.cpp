@@ -1,12 +1,11 @@
 #include "view/window.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <string_view>
 
 #include <dlfcn.h>
 
+#include "base/files.h"
 #include "gpu/gpu.h"
 #include "view/keys.h"
 
@@ -47,10 +46,7 @@ void answerLostDisplay() {
     if (library == nullptr) return;
     const auto set = reinterpret_cast<Answer (*)(Answer)>(dlsym(library, "XSetIOErrorHandler"));
     if (set == nullptr) return;
-    set([](void*) -> int {
-        std::fputs("relief: the display of the window is gone\n", stderr);
-        std::_Exit(int(Failure::device));
-    });
+    set([](void*) -> int { endAtOnce("relief: the display of the window is gone\n", int(Failure::device)); });
 }
 
 } // namespace

@@ -191,6 +191,7 @@ TEST(Window, endsWithItsDisplay) {
                     writeSession(folder, "session", "rest\nscreenshot " + (folder / "a.png") + "\nwait 100\nclose\n")});
     for (int i = 0; i < 3000 && !std::filesystem::exists(folder / "a.png"); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_TRUE(std::filesystem::exists(folder / "a.png"));
     display.stop();
     expectRefused(window.wait(), Failure::device, {});
 }

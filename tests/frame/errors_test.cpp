@@ -108,7 +108,7 @@ TEST_F(ErrorPictures, fallWithTheSquareOfTheSegments) {
 
 // Where sides are cut into other numbers than the insides, and where rates are no whole ones, errors stay those of
 // chords.
-TEST_F(ErrorPictures, areSmallWhereSegmentsAreAPixel) {
+TEST_F(ErrorPictures, areSmallWhereSegmentsAreSmall) {
     const Cage torus = torusWithSeams();
     const Surface surface = buildSurface(torus, {});
     const Model model = SurfaceModel(device(), {.surface = &surface, .cagePositions = torus.positions});

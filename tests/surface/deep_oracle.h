@@ -2,6 +2,7 @@
 // is far from the vertex is forgotten. It uses neither OpenSubdiv nor the library's own rules and matrices.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <set>
 
@@ -13,6 +14,8 @@ namespace relief {
 class DeepOracle {
 public:
     using Real = long double;
+    static_assert(std::numeric_limits<Real>::digits >= 64,
+                  "tolerances of the tests are for more than double precision");
     using RealPoint = glm::vec<3, Real>;
 
     /// Follows a vertex of the cage.
