@@ -98,6 +98,16 @@ TEST_F(Bake, comesBackWithinHalfAStepOfATexel) {
     EXPECT_TRUE(std::filesystem::exists(map));
 }
 
+// With --smooth-cage lines begin above the sculpt even where that is the surface itself.
+TEST_F(Bake, findsASculptThatIsTheSurface) {
+    const std::string torus = cagePath("torus"), same = folder / "same.ply";
+    expectDone(relief({"export", torus, "-o", same, "-q"}, "--rate 16"));
+    const nlohmann::json report =
+        jsonOf(bake({torus, same, "-o", folder / "same.exr", "--smooth-cage", "--json"}, "--size 64,64"));
+    EXPECT_EQ(report["voids"], 0);
+    EXPECT_LT(report["surface_to_sculpt"]["rms_percent"], 0.05);
+}
+
 TEST_F(Bake, needsNoTextureCoordinatesPerFace) {
     exportSculpt(16);
     std::string bare;
