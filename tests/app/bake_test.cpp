@@ -101,7 +101,7 @@ TEST_F(Bake, comesBackWithinHalfAStepOfATexel) {
 // With --smooth-cage lines begin above the sculpt even where that lies nowhere above the surface.
 TEST_F(Bake, findsASculptThatIsTheSurface) {
     const std::string cube = cagePath("cube"), same = folder / "same.ply";
-    expectDone(relief({"export", cube, "-o", same, "-q"}, "--rate 32"));
+    expectDone(relief({"export", cube, "-o", same, "-q"}, "--rate 16"));
     const nlohmann::json report =
         jsonOf(bake({cube, same, "-o", folder / "same.exr", "--smooth-cage", "--json"}, "--size 64,64"));
     EXPECT_EQ(report["voids"], 0);
