@@ -35,8 +35,7 @@ struct DrawPassRow {
     bool drawsHidden = false;    ///< faces out of view too: what casts a shadow, and what cracks are counted through
     bool isAdditive = false;
     bool drawsLines = false;
-    bool namesPoints =
-        false; ///< fragments know their face and where in it they lie: diced meshes are drawn face by face
+    bool namesPoints = false; ///< fragments know where in their face they lie: diced meshes are drawn face by face
 };
 
 /// The rows of all passes, in the order of DrawPass.
