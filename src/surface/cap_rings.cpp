@@ -112,19 +112,10 @@ MatrixXd ringMatrix(CapPattern pattern) {
     return refinementAround(pattern).topLeftCorner(count, count);
 }
 
-constexpr int kRefinements = 120; ///< what shrinks to 2/3 per refinement is below 1e-20 then
-
-/// The weights for the limit point, by the rules of the ring: the left eigenvector of the eigenvalue 1.
-RowVectorXd limitOf(const MatrixXd& ring) {
-    RowVectorXd row = RowVectorXd::Unit(ring.cols(), 0);
-    for (int i = 0; i < kRefinements; ++i) row = (row * ring).eval();
-    return row / row.sum();
-}
-
 /// The rows of p0 + 2^n (v_n - p0) for n = 1, 2, ..., v_n the vertex after n refinements.
 MatrixXd dartMeans(const CapPattern& pattern) {
     const MatrixXd ring = ringMatrix(pattern);
-    const RowVectorXd limit = limitOf(ring);
+    const RowVectorXd limit = stationaryRow(ring);
     RowVectorXd away = RowVectorXd::Unit(ring.cols(), 0) - limit;
     MatrixXd rows(pattern.meanCount(), ring.cols());
     for (int i = 0; i < rows.rows(); ++i) {
@@ -166,7 +157,7 @@ CapPattern CapPattern::ofWindow() const {
 RowVectorXd ringLimit(const CapPattern& pattern) {
     const int n = pattern.faceCount;
     RowVectorXd limit = RowVectorXd::Zero(ringCount(pattern));
-    if (pattern.isDart()) return limitOf(ringMatrix(pattern));
+    if (pattern.isDart()) return stationaryRow(ringMatrix(pattern));
     if (pattern.rule == VertexRule::corner) {
         limit(0) = 1;
     } else if (pattern.rule == VertexRule::crease) {

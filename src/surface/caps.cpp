@@ -300,15 +300,14 @@ MatrixXd loneFaceTangents(const MatrixXd& deepest) {
     return rows;
 }
 
-/// The left eigenvector of the eigenvalue 1; all others are below 2/3.
+} // namespace
+
 RowVectorXd stationaryRow(const MatrixXd& a) {
     constexpr int kRefinements = 120; // (2/3)^120 < 1e-20
     RowVectorXd row = RowVectorXd::Unit(a.rows(), 0);
     for (int i = 0; i < kRefinements; ++i) row = (row * a).eval();
     return row / row.sum();
 }
-
-} // namespace
 
 std::vector<LatticePoint> capOuterPoints(const CapPattern& pattern) {
     std::vector<LatticePoint> points;

@@ -105,6 +105,10 @@ Eigen::MatrixXd ringTangents(const CapPattern& pattern);
 /// a window it maps C - p0 instead of C, and its rows do not sum up to 1.
 Eigen::MatrixXd refinementAround(const CapPattern& pattern);
 
+/// The left eigenvector of the eigenvalue 1 of such a matrix, or of the part of it that is the ring's own: weights that
+/// sum up to 1 of the points that it refines, for the vertex's limit point. All other eigenvalues are below 2/3.
+Eigen::RowVectorXd stationaryRow(const Eigen::MatrixXd& a);
+
 /// What Q is made of.
 class CapMatrices {
 public:
