@@ -218,22 +218,21 @@ HeightMap bakeFaces(const BakeArgs& args, const BakePair& pair, const BakeOption
     const BakedHeights baked = bakeHeights(pair.reference, pair.sculpt, texels, options);
     addCounts(report.baked, baked);
     if (baked.texelCount == 0) fail(Failure::input, "{}: all of its faces are holes", args.object.cage);
-    const auto mapOf = [&](double scale, const auto& valueAt) {
+    const auto mapOf = [&](const auto& valueAt) {
         HeightMap map = makeFaceMap(pair.object.surface, texels.segments(), [&](int face, const dvec2& uv) {
             return double(valueAt(texels.texelAt(face, uv)));
         });
         map.topology = hashTopology(pair.object.cage);
-        map.scale = scale;
         return map;
     };
     // The mask first, so that both maps need not be there at a time.
     if (!args.voids.empty()) {
         const auto isMissed = [&](std::uint32_t texel) { return baked.states[texel] == TexelState::missed ? 1 : 0; };
-        saveFaceMap(args.voids, mapOf(1, isMissed));
+        saveFaceMap(args.voids, mapOf(isMissed));
     }
     // Heights in cage units: rounded as the file holds them.
     const bool isHalf = chooseHeightSample(args) == SampleType::half;
-    HeightMap map = mapOf(1, [&](std::uint32_t texel) { return pair.unit * double(baked.heights[texel]); });
+    HeightMap map = mapOf([&](std::uint32_t texel) { return pair.unit * double(baked.heights[texel]); });
     if (isHalf) map = encode(map, MapFormat::half).decoded;
     saveFaceMap(args.target, map);
     return map;
