@@ -43,14 +43,26 @@ vec3 turnedNormal(vec3 n, vec3 ps, float side) {
 #ifdef RELIEF_HEIGHT_FUNCTION
 #include "function.glsl"
 
+#ifdef RELIEF_OWN_DERIVATIVES // how vRest changes from a pixel to the next
+vec3 restStepX, restStepY;
+#else
 layout(constant_id = kIdHasTexCoords) const bool kHasTexCoords = false;
+#endif
+
+// How far the points at rest of neighbouring pixels are apart.
+float pixelAtRest() {
+#ifdef RELIEF_OWN_DERIVATIVES
+    return max(length(restStepX), length(restStepY));
+#else
+    return max(length(dFdx(vRest)), length(dFdy(vRest)));
+#endif
+}
 
 // Gradient of the function's height along the surface, by central differences in directions that are perpendicular to each other:
 // over half a pixel, for samples are that far apart, and at least over the step of vertices. Two directions span the surface;
 // vertices that stretch have slopes of their own, and gradients are not perpendicular to their normals.
 vec3 functionGradient(vec3 n, vec3 gradientS, vec3 gradientT) {
-    float pixel = max(length(dFdx(vRest)), length(dFdy(vRest)));
-    float d = max(0.25 * pixel, inputs.model.heightStep);
+    float d = max(0.25 * pixelAtRest(), inputs.model.heightStep);
     vec3 first = normalize(abs(n.x) < 0.7 ? cross(n, vec3(1, 0, 0)) : cross(n, vec3(0, 1, 0)));
     vec3 gradient = vec3(0);
     for (uint i = 0u; i < (kStretches && kHasHeight ? 6u : 4u); ++i) {

@@ -15,11 +15,13 @@ vec3 fromOctahedral(vec2 p) {
     return normalize(n);
 }
 
-// 16 bits per coordinate.
-uint packNormal(vec3 n) {
-    ivec2 code = ivec2(floor(32767.0 * octahedral(n) + 0.5));
+// 16 bits per number, each -1..1.
+uint packPair(vec2 p) {
+    ivec2 code = ivec2(floor(32767.0 * p + 0.5));
     return uint(code.x & 0xffff) | uint(code.y) << 16;
 }
+vec2 unpackPair(uint code) { return vec2(int(code << 16) >> 16, int(code) >> 16) / 32767.0; }
 
-vec3 unpackNormal(uint code) { return fromOctahedral(vec2(int(code << 16) >> 16, int(code) >> 16) / 32767.0); }
+uint packNormal(vec3 n) { return packPair(octahedral(n)); }
+vec3 unpackNormal(uint code) { return fromOctahedral(unpackPair(code)); }
 #endif

@@ -1,4 +1,7 @@
 // From a model's own space to clip space and to the world.
+#ifndef RELIEF_PROJECT_GLSL
+#define RELIEF_PROJECT_GLSL
+
 layout(constant_id = kIdIsPlaced) const bool kIsPlaced = false;
 
 vec3 worldNormal(vec3 normal) { return kIsPlaced ? inputs.view.normalToWorld * normal : normal; }
@@ -21,3 +24,4 @@ vec4 project(vec3 position) {
     if (kPass == kPassCracks) position = splitByParity(position);
     return inputs.view.toClip * vec4(position, 1.0);
 }
+#endif

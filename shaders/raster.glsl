@@ -102,7 +102,7 @@ void store(ivec2 pixel, uint s, vec3 weights, Attributes all, uint triangle, boo
         atomicMax(inputs.targets.shadow.at[at], uint(floor(kShadowCodes * clamp(depth, 0.0, 1.0) + 0.5)));
         return;
     }
-    uint low = (push.firstId + triangle) << 1 | (isFront ? 1u : 0u);
+    uint low = packId(push.firstId + triangle, false, isFront);
     if (!kWritesIds) low = packNormal(weights.x * all.normals[0] + weights.y * all.normals[1] + weights.z * all.normals[2]);
     uvec2 words = uvec2(low, floatBitsToUint(max(depth, 0.0)));
     atomicMax(Longs(inputs.targets.samples).at[sampleCount() * at + s], packUint2x32(words));

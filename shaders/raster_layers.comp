@@ -1,9 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "inputs.glsl"
-DicedFacePush dicedFace;
-#define RELIEF_DICED_FACE dicedFace
-#include "diced_points.glsl"
+#include "raster_faces.glsl"
 #include "raster_fragments.glsl"
 
 // Which point of the surface each pixel sees at its centre, of those that see one instance: what layers.frag makes of fragments, of
@@ -11,24 +8,6 @@ DicedFacePush dicedFace;
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(constant_id = kIdHasInstances) const bool kHasInstances = false;
-
-RELIEF_TABLE(kBindDiceTable, uint, dicedWord) // a DicedFacePush per face
-
-const uint kFaceWords = 30u;
-
-void fetchDicedFace(uint face) {
-    uint at = kFaceWords * face;
-    dicedFace.face = dicedWord(at);
-    dicedFace.firstInside = dicedWord(at + 1u);
-    for (uint i = 0u; i < 4u; ++i) {
-        dicedFace.sides[i] = dicedWord(at + 2u + i);
-        dicedFace.segments[i] = dicedWord(at + 6u + i);
-        dicedFace.rates[i] = uintBitsToFloat(dicedWord(at + 10u + i));
-        dicedFace.runs.corners[i] = dicedWord(at + 14u + i);
-        dicedFace.runs.middles[i] = dicedWord(at + 18u + i);
-    }
-    for (uint i = 0u; i < 8u; ++i) dicedFace.runs.sides[i] = dicedWord(at + 22u + i);
-}
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -40,9 +19,9 @@ void main() {
         if (push.firstId == 0u) inputs.targets.sampleColors.at[first + 3u] = uvec2(0);
         return;
     }
-    uint triangle = (one.x >> 1u) - push.firstId;
+    uint triangle = triangleOfId(one.x) - push.firstId;
     if (triangle >= push.count) return; // another instance's
-    Weighted corners = interpolate(triangle, (vec2(at) + 0.5) / vec2(inputs.view.pictureSize) * 2.0 - 1.0);
+    Weighted corners = interpolate(triangle, ndcOf(at, ivec2(128)));
     uint face = 0u;
     vec2 uv = vec2(0);
     if (!kIsMesh) {
@@ -52,7 +31,7 @@ void main() {
         if (!kHasTexCoords) vTexCoord.xy = uv;
     }
     vec3 n = fragmentNormal();
-    if ((one.x & 1u) == 0u) n = -n;
+    if (!isFrontId(one.x)) n = -n;
     inputs.targets.sampleColors.at[first] = floatBitsToUint(octahedral(n));
     inputs.targets.sampleColors.at[first + 1u] = floatBitsToUint(vTexCoord.xy);
     inputs.targets.sampleColors.at[first + 2u] = floatBitsToUint(uv);

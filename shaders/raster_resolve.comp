@@ -27,17 +27,17 @@ void main() {
     if (any(greaterThanEqual(at, inputs.view.pictureSize))) return;
     uint pixel = uint(at.y * inputs.view.pictureSize.x + at.x);
     for (uint s = 0u; s < kMostSamples; ++s) {
-        uvec4 two = samplePair(2u * pixel + (s >> 1u));
-        uvec2 one = (s & 1u) == 0u ? two.xy : two.zw;
-        uint triangle = (one.x >> 1u) - push.firstId;
+        uvec2 one = sampleOf(pixel, s);
+        uint triangle = triangleOfId(one.x) - push.firstId;
         if (one.y == 0u || triangle >= push.count) continue; // nothing, or another instance's
-        vec2 ndc = (vec2(at) + vec2(placeInPixel(s)) / 256.0) / vec2(inputs.view.pictureSize) * 2.0 - 1.0;
-        Weighted corners = interpolate(triangle, ndc);
+        Weighted corners = interpolate(triangle, ndcOf(at, placeInPixel(s)));
         setFace(triangle, corners.vertices[0]);
         vec3 n = fragmentNormal();
-        if ((one.x & 1u) == 0u && kShow != kShowNormal) n = -n;
-        uint color = packColor(storedColor(techniqueColor(), kShow == kShowShaded));
-        inputs.targets.sampleColors.at[kMostSamples * pixel + s] = uvec2(packNormal(n), color);
+        if (!isFrontId(one.x) && kShow != kShowNormal) n = -n;
+        uint normal = kShading == kShadingVertexTable ? packPair(vTexCoord.zw) : packNormal(n);
+        bool isLine = kShow == kShowWireframe && isLineId(one.x);
+        uint color = packColor(storedColor(isLine ? lineColor() : techniqueColor(), kShow == kShowShaded));
+        inputs.targets.sampleColors.at[kMostSamples * pixel + s] = uvec2(normal, color);
         if (kHasInstances) inputs.targets.sampleInstances.at[kMostSamples * pixel + s] = inputs.view.instance;
     }
 }

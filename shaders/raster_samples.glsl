@@ -9,6 +9,13 @@ const uint kMostSamples = 4u;
 // Where sample s of four lies in its pixel, in 1/256 of a pixel (Vulkan, standardSampleLocations).
 ivec2 placeInPixel(uint s) { return ivec2(0xA020E060u >> (8u * s) & 255u, 32u + 64u * s); }
 
+// What samples hold in place of normals where colours are made later: the number of a triangle among those of all instances,
+// whether it is a line around it that is seen, and whether the triangle shows its front.
+uint packId(uint triangle, bool isLine, bool isFront) { return triangle << 2 | (isLine ? 2u : 0u) | (isFront ? 1u : 0u); }
+uint triangleOfId(uint id) { return id >> 2; }
+bool isLineId(uint id) { return (id & 2u) != 0u; }
+bool isFrontId(uint id) { return (id & 1u) != 0u; }
+
 // A color of ten bits per channel that storedColor() has made, and back.
 uint packColor(vec3 stored) {
     uvec3 codes = uvec3(kColorCodes * stored + 0.5);

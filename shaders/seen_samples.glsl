@@ -40,7 +40,8 @@ Seen seenAt(ivec2 at, int i) {
             one = (i & 1) == 0 ? two.xy : two.zw;
             stored = unpackColor(one.y);
         }
-        return Seen(depth, unpackNormal(one.x), colorOfStored(stored, isLight));
+        vec3 held = kShading == kShadingVertexTable ? vec3(unpackPair(one.x), 0.0) : unpackNormal(one.x);
+        return Seen(depth, held, colorOfStored(stored, isLight));
     }
     vec2 stored = texelFetch(normalSamples, at, i).xy;
     vec3 normal = kShading == kShadingVertexTable ? vec3(stored, 0.0) : fromOctahedral(stored);

@@ -43,8 +43,10 @@ vec3 albedo() {
     return kHasAlbedoMap ? c * lookUp(albedoMap, inputs.model.albedoTiles, 0.0).rgb : c;
 }
 
+vec3 lineColor() { return shown(ivec3(20, 26, 36)); }
+
 vec3 techniqueColor() {
-    if (kPass == kPassLines) return shown(ivec3(20, 26, 36));
+    if (kPass == kPassLines) return lineColor();
     switch (kShow) {
     case kShowHeight: return heightColor(inputs.model.heightBound > 0.0 ? vHeight / inputs.model.heightBound : 0.0);
     case kShowRate: return rateColor(float(vRate));

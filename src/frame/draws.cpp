@@ -68,7 +68,7 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
     drawn.bindings[kBindMeshTexCoords] = mesh.texCoords.binding();
     drawn.bindings[kBindMeshTexGradients] = mesh.texGradients.binding();
     // Which face a triangle belongs to, for layers and the pictures that show faces or their rates.
-    if (frame.technique.wantsFaces || !frame.options.layers.empty()) {
+    if (frame.technique.wantsFaces || !mesh.faces.empty()) {
         std::vector<std::uint32_t> words;
         for (std::size_t face = 0; face < mesh.faceRates.size(); ++face)
             words.insert(words.end(), {mesh.firstTriangles[face], mesh.faceRates[face]});

@@ -68,12 +68,7 @@ void Renderer::Parts::useLayerBuffers(Frame& frame) {
             drawn.bindings[slot] = resources.bindings()[slot]; // images of one sample, which nothing reads
         drawn.bindings[kBindSampleColors] = buffers->colors.binding();
         if (frame.hasInstances()) drawn.bindings[kBindSampleInstances] = buffers->instances.binding();
-        if (drawn.surface == nullptr) continue;
-        const std::vector<DicedFacePush>& faces = drawn.diced.faces;
-        RELIEF_CHECK(faces.size() == drawn.diced.faceRates.size());
-        drawn.dicedFaces =
-            uploadTexels(device, {.name = "diced faces"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(faces)));
-        drawn.bindings[kBindDiceTable] = drawn.dicedFaces.binding();
+        useDicedFaces(drawn);
     }
 }
 

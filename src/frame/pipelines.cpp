@@ -93,7 +93,7 @@ const PendingPipeline& Renderer::Parts::drawPipeline(const Frame& frame, const D
     graphics.samples = row.samples;
     graphics.additiveBlend = row.isAdditive;
     graphics.polygonMode = row.drawsLines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
-    graphics.depthBias = row.drawsLines;
+    if (row.drawsLines) graphics.depthBiasUnits = kLineBiasUnits, graphics.depthBiasSlope = kLineBiasSlope;
     // The code of a height function lives as long as the function: no thread may come to it later.
     return pipelines[key] = drawn.function() != nullptr ? PendingPipeline(makeGraphics(device, graphics))
                                                         : startGraphics(device, std::move(graphics));
@@ -146,8 +146,8 @@ void Renderer::Parts::startPipelines(const Frame& frame) {
         if (frame.castsShadows()) startPass(drawn, DrawPass::shadow, frame.shadowRaster);
     for (const Drawn& drawn : frame.drawn) {
         startPass(drawn, frame.technique.pass, frame.raster);
-        if (frame.writesIds) computePipeline("raster_resolve.comp", constantsOf(frame, drawn, DrawPass::surface));
-        if (frame.technique.hasLines) drawPipeline(frame, drawn, DrawPass::lines);
+        if (frame.writesIds) resolvePipeline(frame, drawn);
+        if (frame.technique.hasLines && frame.raster == Raster::hardware) drawPipeline(frame, drawn, DrawPass::lines);
     }
     if (frame.hasOcclusion()) occlusionPipeline(frame);
     lightPipeline(frame);

@@ -13,10 +13,11 @@ constexpr double kMostPixelsPerTriangle = 10;
 
 constexpr std::uint32_t kRasterGroup = 64;
 
-/// Numbers of triangles that samples can hold besides the side that they are seen from.
-constexpr std::uint64_t kMostIds = std::uint64_t(1) << 31;
+/// Numbers of triangles that samples can hold: packId() of shaders/raster_samples.glsl.
+constexpr std::uint64_t kMostIds = std::uint64_t(1) << 30;
 
 constexpr const char* kLargeShader = "raster_large.comp";
+constexpr const char* kLineShader = "raster_lines.comp";
 
 struct MeshSize {
     std::uint32_t vertexCount, triangleCount;
@@ -55,14 +56,10 @@ std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
     if (std::uint64_t(desc.width) * std::uint64_t(desc.height) * kSampleBytes > largestTable(device, 16))
         return fmt::format("{} reads no table of all samples of {} x {} pixels", device.traits().name, desc.width,
                            desc.height);
-    if (frame.technique.hasLines) return "it draws no lines";
-    if (frame.technique.pass == DrawPass::errors) return "the device's own rasterizer evaluates the surface per pixel";
-    if (frame.shading == kShadingVertexTable) return "it shades no vertices";
     if (frame.stats.triangleCount >= kMostIds)
         return fmt::format("{} triangles are more than samples can number", frame.stats.triangleCount);
     for (const Drawn& drawn : frame.drawn) {
         if (drawn.surface != nullptr && frame.path != Path::dice) return "it takes meshes: --path dice";
-        if (drawn.isBentByFunction()) return "the device's own rasterizer evaluates height functions per pixel";
         if (drawn.bindings[kBindMeshIndices].isEmpty()) return "the mesh is too large for it";
     }
     return "";
@@ -74,14 +71,20 @@ void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) c
     const Raster asked = frame.options.raster;
     if (asked == Raster::compute && !obstacle.empty())
         fail(Failure::usage, "the compute rasterizer cannot draw this picture: {}", obstacle);
+    const bool drawsLines = frame.technique.hasLines && !device.traits().hasWireframe;
     const auto choose = [&](const mat4& toClip, uvec2 size) {
         if (asked != Raster::automatic) return asked;
-        if (!obstacle.empty() || !device.traits().rastersFasterInCompute) return Raster::hardware;
+        if (!obstacle.empty()) return Raster::hardware;
+        if (drawsLines) return Raster::compute; // which the device has not
+        if (!device.traits().rastersFasterInCompute) return Raster::hardware;
         const double pixels = coveredPixels(frame.options.bounds, toClip, size);
         const bool areSmall = pixels < kMostPixelsPerTriangle * 0.5 * double(triangleCount);
         return areSmall ? Raster::compute : Raster::hardware;
     };
     frame.raster = frame.stats.raster = choose(frame.inputs.view.toClip, size());
+    if (drawsLines && frame.raster == Raster::hardware)
+        fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it, or --raster compute",
+             device.traits().name);
     if (frame.castsShadows()) frame.shadowRaster = choose(frame.inputs.light.toShadow, uvec2(desc.shadowSide));
     frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
 }
@@ -92,8 +95,10 @@ void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) c
 bool Renderer::Parts::needsIds(const Frame& frame) const {
     const Show show = frame.technique.show;
     if (frame.hasInstances() || (show != Show::shaded && show != Show::normal)) return true;
+    if (frame.shading == kShadingVertexTable) return true;
     const ModelPictures& pictures = frame.drawn.front().pictures();
-    return (pictures.albedo && frame.technique.wantsAlbedo) || pictures.slopes || pictures.normalMap;
+    return (pictures.albedo && frame.technique.wantsAlbedo) || pictures.slopes || pictures.normalMap ||
+           frame.drawn.front().isBentByFunction();
 }
 
 /// The buffers that hold samples, made when first needed.
@@ -118,7 +123,19 @@ void Renderer::Parts::useBuffers(Frame& frame) {
     frame.bindings[kBindShadowCodes] = buffers->shadow.binding();
     useSampleTables(frame, frame.writesIds);
     if (frame.writesIds) frame.bindings[kBindSampleColors] = buffers->colors.binding();
+    if (frame.raster == Raster::compute && frame.technique.pass == DrawPass::errors)
+        for (Drawn& drawn : frame.drawn) useDicedFaces(drawn);
     if (frame.hasInstances()) frame.bindings[kBindSampleInstances] = buffers->instances.binding();
+}
+
+/// Where vertices lie in their faces, for shaders that go from triangles to points of the surface.
+void Renderer::Parts::useDicedFaces(Drawn& drawn) {
+    if (drawn.surface == nullptr) return;
+    const std::vector<DicedFacePush>& faces = drawn.diced.faces;
+    RELIEF_CHECK(faces.size() == drawn.diced.faceRates.size());
+    drawn.dicedFaces =
+        uploadTexels(device, {.name = "diced faces"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(faces)));
+    drawn.bindings[kBindDiceTable] = drawn.dicedFaces.binding();
 }
 
 /// What samples hold besides depths and normals, made when first needed.
@@ -194,6 +211,7 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
     const MeshSize mesh = meshSizeOf(drawn);
     dispatch("raster_vertices.comp", mesh.vertexCount);
     dispatch("raster_triangles.comp", mesh.triangleCount);
+    if (pass == DrawPass::surface && frame.technique.hasLines) dispatch(kLineShader, mesh.triangleCount);
     if (!drawsLarge) return;
     const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, pass).get();
     bind(commands, large, drawn.set);
@@ -243,11 +261,18 @@ void Renderer::Parts::dispatchPixels(VkCommandBuffer commands, const Pipeline& p
     vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
 }
 
+const PendingPipeline& Renderer::Parts::resolvePipeline(const Frame& frame, const Drawn& drawn) {
+    const ShaderConstants constants = constantsOf(frame, drawn, frame.technique.pass);
+    if (frame.technique.pass == DrawPass::errors)
+        return computePipeline("raster_errors.comp", constants,
+                               {.function = drawn.function(), .isTriangles = drawn.isTriangles()});
+    return computePipeline("raster_resolve.comp", constants, {.function = drawn.bendingFunction()});
+}
+
 /// Normals and colours of the triangles that samples name.
 void Renderer::Parts::resolve(VkCommandBuffer commands, const Frame& frame) {
     for (const Drawn& drawn : frame.drawn) {
-        const Pipeline& pipeline =
-            computePipeline("raster_resolve.comp", constantsOf(frame, drawn, DrawPass::surface)).get();
+        const Pipeline& pipeline = resolvePipeline(frame, drawn).get();
         bind(commands, pipeline, drawn.set);
         dispatchPixels(commands, pipeline, drawn);
     }
@@ -257,9 +282,10 @@ void Renderer::Parts::resolve(VkCommandBuffer commands, const Frame& frame) {
 /// What layers.comp reads, of the triangles that samples name.
 void Renderer::Parts::resolveLayers(VkCommandBuffer commands, const Frame& frame) {
     for (const Drawn& drawn : frame.drawn) {
-        const Pipeline& pipeline = computePipeline("raster_layers.comp", constantsOf(frame, drawn, DrawPass::layers),
-                                                   {.isTriangles = drawn.isTriangles()})
-                                       .get();
+        const Pipeline& pipeline =
+            computePipeline("raster_layers.comp", constantsOf(frame, drawn, DrawPass::layers),
+                            {.function = drawn.bendingFunction(), .isTriangles = drawn.isTriangles()})
+                .get();
         bind(commands, pipeline, drawn.set);
         dispatchPixels(commands, pipeline, drawn);
     }

@@ -183,8 +183,6 @@ Renderer::Parts::Drawn Renderer::Parts::describe(const Frame& frame, const Insta
 Renderer::Parts::Frame Renderer::Parts::prepare(std::span<const Instance> instances, const RenderOptions& options,
                                                 DrawPass pass) {
     Frame frame{.options = options, .technique = techniqueOf(options.show), .path = options.path};
-    if (frame.technique.hasLines && !device.traits().hasWireframe)
-        fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it", device.traits().name);
     frame.shading = shadingOf(instances, options);
     if (instances.empty() || instances.size() > kMostInstances)
         fail(Failure::usage, "a picture of {} instances is not in 1..{}", instances.size(), kMostInstances);

@@ -69,8 +69,8 @@ struct Renderer::Parts {
         Buffer draws;
         DrawPlan plan;
         DicedMesh diced;
-        TexelBuffer faceTriangles; ///< kBindFaceTriangles, where the technique or layers want faces
-        TexelBuffer dicedFaces;    ///< of layers by the compute rasterizer: DicedMesh::faces
+        TexelBuffer faceTriangles; ///< kBindFaceTriangles, where something wants faces
+        TexelBuffer dicedFaces;    ///< of layers and errors by the compute rasterizer: DicedMesh::faces
         std::uint32_t firstId = 0; ///< triangles of the instances before it
         BindingSet set;
 
@@ -82,6 +82,10 @@ struct Renderer::Parts {
         }
         [[nodiscard]] bool isBentByFunction() const {
             return surface != nullptr ? surface->functionBendsNormals : mesh->function != nullptr;
+        }
+        /// Null where none bends normals.
+        [[nodiscard]] const HeightFunction* bendingFunction() const {
+            return isBentByFunction() ? function() : nullptr;
         }
         [[nodiscard]] bool isTriangles() const { return surface != nullptr && surface->isTriangles(); }
     };
@@ -180,9 +184,11 @@ struct Renderer::Parts {
     [[nodiscard]] bool needsIds(const Frame& frame) const;
     void useBuffers(Frame& frame);
     void makeMeshBuffers(const Frame& frame);
+    const PendingPipeline& resolvePipeline(const Frame& frame, const Drawn& drawn);
     void resolve(VkCommandBuffer commands, const Frame& frame);
     void dispatchPixels(VkCommandBuffer commands, const Pipeline& pipeline, const Drawn& drawn) const;
     void resolveLayers(VkCommandBuffer commands, const Frame& frame);
+    void useDicedFaces(Drawn& drawn);
     void useSampleTables(Frame& frame, bool writesColors);
     void submit(Frame& frame);
     void submitRastered(const std::function<void(VkCommandBuffer)>& record);

@@ -186,7 +186,12 @@ void Renderer::Parts::otherLightPasses(VkCommandBuffer commands, Frame& frame) {
         useLight(frame, light);
         writeInputs(commands, frame);
         if (frame.castsShadows()) shadowPass(commands, frame);
-        if (frame.shading == kShadingVertexTable) surfacePass(commands, frame); // vertices know the light's direction
+        if (frame.shading == kShadingVertexTable) { // vertices know the light's direction
+            if (frame.raster == Raster::compute)
+                resolve(commands, frame);
+            else
+                surfacePass(commands, frame);
+        }
         lightPass(commands, frame, true);
     }
     useLight(frame, keyOf(frame.options.lighting)); // a picture with large triangles is recorded once more

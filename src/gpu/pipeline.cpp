@@ -72,9 +72,9 @@ VkPipelineRasterizationStateCreateInfo rasterState(const GraphicsDesc& desc) {
     raster.polygonMode = desc.polygonMode;
     raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     raster.lineWidth = 1;
-    raster.depthBiasEnable = desc.depthBias ? VK_TRUE : VK_FALSE;
-    raster.depthBiasConstantFactor = 64;
-    raster.depthBiasSlopeFactor = 2;
+    raster.depthBiasEnable = desc.depthBiasUnits != 0 || desc.depthBiasSlope != 0 ? VK_TRUE : VK_FALSE;
+    raster.depthBiasConstantFactor = desc.depthBiasUnits;
+    raster.depthBiasSlopeFactor = desc.depthBiasSlope;
     return raster;
 }
 

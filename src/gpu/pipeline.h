@@ -26,10 +26,10 @@ struct GraphicsDesc {
     PipelineLayoutDesc layout;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     VkPolygonMode polygonMode = VK_POLYGON_MODE_FILL;
-    bool rasterizerDiscard = false;     ///< vertices alone: no rasterization
-    bool additiveBlend = false;         ///< colors are added, without depth
-    bool depthBias = false;             ///< for a wireframe over its own surface
-    std::vector<VkFormat> colorFormats; ///< none: depth alone
+    bool rasterizerDiscard = false;               ///< vertices alone: no rasterization
+    bool additiveBlend = false;                   ///< colors are added, without depth
+    float depthBiasUnits = 0, depthBiasSlope = 0; ///< for a wireframe over its own surface; 0: none
+    std::vector<VkFormat> colorFormats;           ///< none: depth alone
     VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
     VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };

@@ -51,10 +51,9 @@ TEST_F(ErrorPictures, ofAParabolaAreThoseOfItsChords) {
     constexpr double kEye = 4, kSize = 0.9, a = 0.18;
     const FunctionHeights heights = heightsByFunction(fmt::format("{:.3f} * p.x * abs(p.x)", a), ByFunction::moves);
     const SurfaceModel model(device(), {.surface = &surface, .cagePositions = plane.positions, .function = &heights});
-    for (const Path path : kDetailPaths) {
-        if (path == Path::tessellation && !device().traits().hasTessellation) continue;
+    for (const Way& way : detailWays()) {
         RenderOptions options = errorOptions({0, 0, kEye}, kSize);
-        options.path = path;
+        options.path = way.path, options.raster = way.raster;
         options.rate = 4;
         std::vector<double> differences;
         dvec2 range(0);
@@ -73,8 +72,8 @@ TEST_F(ErrorPictures, ofAParabolaAreThoseOfItsChords) {
         EXPECT_GT(differences.size(), 25'000u);
         EXPECT_LT(range.x, -0.9);
         EXPECT_GT(range.y, 0.9);
-        EXPECT_LT(rms(differences), 0.01) << int(path);  // codes are hundredths
-        EXPECT_LT(most(differences), 0.06) << int(path); // pixels on both sides of a vertex
+        EXPECT_LT(rms(differences), 0.01) << nameOf(way);  // codes are hundredths
+        EXPECT_LT(most(differences), 0.06) << nameOf(way); // pixels on both sides of a vertex
     }
 }
 
@@ -94,15 +93,14 @@ TEST_F(ErrorPictures, fallWithTheSquareOfTheSegments) {
     const Model models[] = {SurfaceModel(device(), {.surface = &quads, .cagePositions = torus.positions}),
                             SurfaceModel(device(), {.surface = &triangles, .cagePositions = ball.positions})};
     for (const Model& model : models)
-        for (const Path path : kDetailPaths) {
-            if (path == Path::tessellation && !device().traits().hasTessellation) continue;
+        for (const Way& way : detailWays()) {
             const bool isBall = &model == &models[1];
             RenderOptions options = errorOptions({0, 4, 8}, isBall ? 0.9 : 3);
-            options.path = path;
+            options.path = way.path, options.raster = way.raster;
             const double coarse = meanError(model, options, isBall ? 8 : 3),
                          fine = meanError(model, options, isBall ? 16 : 6);
             EXPECT_GT(coarse, 0.05);
-            EXPECT_NEAR(coarse / fine, 4, 0.6) << isBall << " path " << int(path);
+            EXPECT_NEAR(coarse / fine, 4, 0.6) << isBall << " " << nameOf(way);
         }
 }
 
@@ -112,11 +110,10 @@ TEST_F(ErrorPictures, areSmallWhereSegmentsAreSmall) {
     const Cage torus = torusWithSeams();
     const Surface surface = buildSurface(torus, {});
     const Model model = SurfaceModel(device(), {.surface = &surface, .cagePositions = torus.positions});
-    for (const Path path : kDetailPaths)
+    for (const Way& way : detailWays())
         for (const Spacing spacing : {Spacing::equal, Spacing::fractional}) {
-            if (path == Path::tessellation && !device().traits().hasTessellation) continue;
             RenderOptions options = errorOptions({0, 2, 6}, 3);
-            options.path = path;
+            options.path = way.path, options.raster = way.raster;
             options.spacing = spacing;
             options.edgePixels = 4;
             std::vector<double> errors;
@@ -124,7 +121,7 @@ TEST_F(ErrorPictures, areSmallWhereSegmentsAreSmall) {
                 errors.push_back(std::abs(seen.pixels));
             // A tube of 20 pixels' radius: chords of 4 pixels, and of twice that in grids, are 0.1 to 0.4 away.
             EXPECT_GT(most(errors), 0.02);
-            EXPECT_LT(rms(errors), 0.15) << int(path) << " spacing " << int(spacing);
+            EXPECT_LT(rms(errors), 0.15) << nameOf(way) << " spacing " << int(spacing);
         }
 }
 

@@ -46,10 +46,10 @@ TEST_F(FunctionNormals, areThoseOfTheFunctionAtEveryRate) {
         const FunctionHeights heights = heightsByFunction(kWaves, how);
         const SurfaceModel model(device(),
                                  {.surface = &surface, .cagePositions = plane.positions, .function = &heights});
-        for (const Path path : kDetailPaths)
+        for (const Way& way : detailWays())
             for (const int rate : {64, 16, 8}) {
                 RenderOptions options = bilinear();
-                options.path = path;
+                options.path = way.path, options.raster = way.raster;
                 options.rate = rate;
                 const std::vector<Seen> pixels = look(model, options, {0, 0, 4}, 0.9);
                 const std::vector<double> angles = anglesToWaves(pixels);
@@ -58,9 +58,9 @@ TEST_F(FunctionNormals, areThoseOfTheFunctionAtEveryRate) {
                     std::ranges::max(pixels, {}, [](const Seen& seen) { return std::abs(seen.height); }).height;
                 EXPECT_EQ(highest != 0, how != ByFunction::bends);
                 if (how != ByFunction::moves) {
-                    EXPECT_LT(rms(angles), 0.3) << int(path) << " rate " << rate << " how " << int(how);
+                    EXPECT_LT(rms(angles), 0.3) << nameOf(way) << " rate " << rate << " how " << int(how);
                 } else if (rate < 64) {
-                    EXPECT_GT(rms(angles), 3) << int(path) << " rate " << rate;
+                    EXPECT_GT(rms(angles), 3) << nameOf(way) << " rate " << rate;
                 }
             }
     }
@@ -75,9 +75,13 @@ TEST_F(FunctionNormals, areThoseOfTheFunctionOnPlainTriangles) {
     const Tangents tangents = computeTangents(mesh);
     for (const FunctionHeights* heights : {&ofPoint, &ofTexture}) {
         const MeshModel model(device(), {.mesh = &mesh, .function = heights, .tangents = &tangents});
-        const std::vector<double> angles = anglesToWaves(look(model, bilinear(), {0, 0, 4}, 0.9));
-        EXPECT_GT(angles.size(), 10000u);
-        EXPECT_LT(rms(angles), 0.2);
+        for (const Way& way : detailWays()) {
+            RenderOptions options = bilinear();
+            options.raster = way.raster;
+            const std::vector<double> angles = anglesToWaves(look(model, options, {0, 0, 4}, 0.9));
+            EXPECT_GT(angles.size(), 10000u);
+            EXPECT_LT(rms(angles), 0.2) << nameOf(way);
+        }
     }
     mesh.texCoords.clear();
     const MeshModel model(device(), {.mesh = &mesh, .function = &ofTexture});

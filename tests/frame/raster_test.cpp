@@ -350,10 +350,52 @@ TEST_F(Raster, isRefusedWhereItCannotDraw) {
     options.path = Path::grid;
     expectFailure(Failure::usage, {"compute rasterizer", "--path dice"},
                   [&] { rasterRenderer().render(scene().plain, options); });
-    options.path = Path::dice;
-    options.show = Show::wireframe;
-    expectFailure(Failure::usage, {"compute rasterizer", "lines"},
-                  [&] { rasterRenderer().render(scene().plain, options); });
+}
+
+/// Samples in the rectangles around lines are the same but for the rounding of their edges; of what lies at the same
+/// depth one line or another is seen.
+TEST_F(Raster, drawsTheLinesOfTheFixedFunction) {
+    if (!device().traits().hasWireframe) GTEST_SKIP() << "no lines of the device";
+    const auto expectAlike = [&](const Instance& instance, RenderOptions options, const std::string& name) {
+        options.show = Show::faces;
+        options.raster = relief::Raster::hardware;
+        const Image faces = rasterRenderer().render(instance, options).image();
+        options.show = Show::wireframe;
+        const Image hardware = rasterRenderer().render(instance, options).image();
+        options.raster = relief::Raster::compute;
+        const Picture picture = rasterRenderer().render(instance, options);
+        ASSERT_EQ(int(picture.stats.raster), int(relief::Raster::compute));
+        EXPECT_LT(rmsDifference(picture.image(), hardware), 0.02) << name;
+        EXPECT_GT(rmsDifference(faces, hardware), 0.08) << name;
+    };
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
+    for (const int rate : {3, 12}) {
+        options.rate = rate;
+        expectAlike(scene().plain, options, fmt::format("rate {}", rate));
+    }
+    // Lines that pass the eye, end far beside the picture, and are longer than it.
+    const DenseMesh floor =
+        meshOf({{-6, -1, 3}, {6, -1, 3}, {90, -1, -60}, {-90, -1, -60}}, {0, 1, 2, 0, 2, 3}, {0, 1, 0});
+    const MeshModel model(device(), {.mesh = &floor});
+    expectAlike(model, exactView(relief::Raster::compute), "floor");
+}
+
+/// n.l and v.r of vertices, interpolated, in the place of normals: once per light.
+TEST_F(Raster, shadesVerticesAsTheFixedFunction) {
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::hardware);
+    options.rate = 4;
+    options.shading = Shading::table;
+    options.phong.exponent = 100;
+    options.lighting.castsShadows = false;
+    options.lighting.others = {{.azimuth = 110, .elevation = 20, .strength = 2, .color = {1, 0.5f, 0.2f}}};
+    const Image pixels = rasterRenderer().render(scene().plain, options).image();
+    options.tableAtVertices = true;
+    const Image hardware = rasterRenderer().render(scene().plain, options).image();
+    options.raster = relief::Raster::compute;
+    const Image compute = rasterRenderer().render(scene().plain, options).image();
+    const double asPixels = rmsDifference(pixels, hardware);
+    EXPECT_GT(asPixels, 0.005);
+    EXPECT_LT(rmsDifference(compute, hardware), asPixels / 4);
 }
 
 /// By default small triangles are drawn by the way that is faster on the device, and large ones by the fixed function.

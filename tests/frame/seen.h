@@ -75,6 +75,22 @@ inline RenderOptions bilinear() {
     return options;
 }
 
+/// A path, and what makes samples of its triangles.
+struct Way {
+    Path path;
+    Raster raster = Raster::hardware;
+};
+
+/// All that the device has.
+inline std::vector<Way> detailWays() {
+    std::vector<Way> ways{{Path::grid}, {Path::dice}};
+    if (device().traits().hasTessellation) ways.push_back({Path::tessellation});
+    if (device().traits().hasLongAtomics) ways.push_back({Path::dice, Raster::compute});
+    return ways;
+}
+
+inline std::string nameOf(const Way& way) { return fmt::format("path {} raster {}", int(way.path), int(way.raster)); }
+
 inline constexpr Path kDetailPaths[] = {Path::tessellation, Path::grid, Path::dice};
 
 /// The square from (-1, -1) to (1, 1) in the plane z = 0.
