@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/compare.h"
 #include "app/empty.h"
+#include "app/library_pages.h"
 #include "app/object_options.h"
 #include "app/options.h"
 #include "app/output.h"
@@ -161,6 +162,7 @@ Drawn draw(const RenderArgs& args, const Warn& warn, Progress& progress) {
     const Material material = makeMaterial(args.scene.object.material, object.textureColor);
     loaded = {};
     malloc_trim(0);
+    releaseLibraryPages();
     progress.advance();
 
     const ivec2& size = args.scene.size;

@@ -58,7 +58,7 @@ std::vector<int> Renderer::Parts::crossingsInCompute(Frame& frame) {
     makeSets(frame, DrawPass::cracks);
     device.submitAndWait([&](VkCommandBuffer commands) {
         writeInputs(commands, frame);
-        rasterize(commands, frame, DrawPass::cracks, sums, size());
+        rasterize(commands, frame, {DrawPass::cracks, sums, size()});
     });
     drawsLarge = drewLarge;
     downloadBytes(device, sums, std::as_writable_bytes(std::span(crossings)));

@@ -57,7 +57,8 @@ DiceOptions Renderer::Parts::diceOptionsOf(const Frame& frame, const Drawn& draw
             .wantsTexCoords = constants.wantsTexCoords && constants.hasTexCoords,
             .wantsTexGradients = constants.hasTexGradients,
             .wantsFaces = rowOf(mostWanted).namesPoints,
-            .memory = frame.options.memory};
+            .memory = frame.options.memory,
+            .pieceTriangles = pieceTrianglesOf(frame)};
 }
 
 void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& stats) {
@@ -75,7 +76,7 @@ void Renderer::Parts::makeDiced(const Frame& frame, Drawn& drawn, FrameStats& st
         drawn.faceTriangles = uploadWords(device, "triangles of faces", words);
         drawn.bindings[kBindFaceTriangles] = drawn.faceTriangles.binding();
     }
-    stats.triangleCount += mesh.triangleCount;
+    stats.triangleCount += mesh.allTriangles;
     stats.vertexCount += mesh.sampleCount;
     stats.faceCount += drawn.surface->faces.size();
     ++stats.drawCount;

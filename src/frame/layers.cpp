@@ -89,7 +89,7 @@ void Renderer::Parts::renderLayers(Frame& frame, Picture& picture) {
     const auto record = [&](VkCommandBuffer commands) {
         writeInputs(commands, frame);
         if (inCompute) {
-            rasterize(commands, frame, DrawPass::layers, buffers->samples.buffer, size());
+            rasterize(commands, frame, {DrawPass::layers, buffers->samples.buffer, size()});
             resolveLayers(commands, frame);
         } else {
             layerPass(commands, frame);

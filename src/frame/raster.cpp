@@ -19,10 +19,13 @@ constexpr std::uint64_t kMostIds = std::uint64_t(1) << 30;
 constexpr const char* kLargeShader = "raster_large.comp";
 constexpr const char* kLineShader = "raster_lines.comp";
 
-struct MeshSize {
-    std::uint32_t vertexCount, triangleCount;
-};
+/// Triangles of a piece of a diced surface, where all it needs is samples: vertices, their places on the screen and
+/// indices of a piece take some 40 MB.
+constexpr std::uint64_t kPieceTriangles = std::uint64_t(1) << 20;
 
+using MeshSize = Dicer::PieceSize;
+
+/// Of buffers: the largest piece.
 template <typename Drawn>
 MeshSize meshSizeOf(const Drawn& drawn) {
     if (drawn.mesh != nullptr) return {drawn.mesh->vertexCount, drawn.mesh->triangleCount};
@@ -50,23 +53,39 @@ std::uint32_t groupsOf(std::uint32_t count) { return (count + kRasterGroup - 1) 
 
 // --- choice ----------------------------------------------------------------------------------------------
 
-/// Why the compute rasterizer cannot make this picture; empty where it can.
-std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
+/// Why the compute rasterizer cannot make this picture, whatever its meshes are; empty where it can.
+std::string Renderer::Parts::obstacleToPicture(const Frame& frame) const {
     if (!device.traits().hasLongAtomics) return fmt::format("{} has no 64-bit atomics", device.traits().name);
     if (std::uint64_t(desc.width) * std::uint64_t(desc.height) * kSampleBytes > largestTable(device, 16))
         return fmt::format("{} reads no table of all samples of {} x {} pixels", device.traits().name, desc.width,
                            desc.height);
-    if (frame.stats.triangleCount >= kMostIds)
-        return fmt::format("{} triangles are more than samples can number", frame.stats.triangleCount);
-    for (const Drawn& drawn : frame.drawn) {
+    for (const Drawn& drawn : frame.drawn)
         if (drawn.surface != nullptr && frame.path != Path::dice) return "it takes meshes: --path dice";
-        if (drawn.bindings[kBindMeshIndices].isEmpty()) return "the mesh is too large for it";
-    }
     return "";
+}
+
+std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
+    std::string obstacle = obstacleToPicture(frame);
+    if (!obstacle.empty()) return obstacle;
+    const bool hasIds = frame.writesIds || !frame.options.layers.empty();
+    if (hasIds && frame.stats.triangleCount >= kMostIds)
+        return fmt::format("{} triangles are more than samples can number", frame.stats.triangleCount);
+    for (const Drawn& drawn : frame.drawn)
+        if (drawn.bindings[kBindMeshIndices].isEmpty()) return "the mesh is too large for it";
+    return "";
+}
+
+/// Pieces are forgotten once they are samples: only samples that hold all that light needs can be made of them.
+std::optional<std::uint64_t> Renderer::Parts::pieceTrianglesOf(const Frame& frame) const {
+    const bool mayRaster = frame.options.raster == Raster::compute ||
+                           (frame.options.raster == Raster::automatic && device.traits().rastersFasterInCompute);
+    if (!mayRaster || needsIds(frame) || !frame.options.layers.empty() || !obstacleToPicture(frame).empty()) return {};
+    return frame.options.pieceTriangles.value_or(kPieceTriangles);
 }
 
 /// The picture and its shadow map each by what suits the size of that many triangles in them.
 void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) const {
+    frame.writesIds = needsIds(frame); // of the compute rasterizer
     const std::string obstacle = obstacleToRaster(frame);
     const Raster asked = frame.options.raster;
     if (asked == Raster::compute && !obstacle.empty())
@@ -75,7 +94,7 @@ void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) c
     const auto choose = [&](const mat4& toClip, uvec2 size) {
         if (asked != Raster::automatic) return asked;
         if (!obstacle.empty()) return Raster::hardware;
-        if (drawsLines) return Raster::compute; // which the device has not
+        if (drawsLines || frame.isDicedInPieces()) return Raster::compute; // nothing else can draw it
         if (!device.traits().rastersFasterInCompute) return Raster::hardware;
         const double pixels = coveredPixels(frame.options.bounds, toClip, size);
         const bool areSmall = pixels < kMostPixelsPerTriangle * 0.5 * double(triangleCount);
@@ -86,7 +105,7 @@ void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) c
         fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it, or --raster compute",
              device.traits().name);
     if (frame.castsShadows()) frame.shadowRaster = choose(frame.inputs.light.toShadow, uvec2(desc.shadowSide));
-    frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
+    frame.writesIds = frame.writesIds && frame.raster == Raster::compute;
 }
 
 // --- dispatches ------------------------------------------------------------------------------------------
@@ -187,14 +206,14 @@ const PendingPipeline& Renderer::Parts::rasterPipeline(const char* file, const F
     return computePipeline(file, constants);
 }
 
-void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, DrawPass pass,
-                                    uvec2 targetSize) {
+void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn,
+                                    const Dicer::PieceSize& mesh, const RasterTarget& target) {
     const Camera& camera = frame.options.camera;
-    RasterPush block{.size = ivec2(targetSize),
+    RasterPush block{.size = ivec2(target.size),
                      .depthAtInfinity = float(-camera.nearDistance / (camera.farDistance - camera.nearDistance)),
                      .firstId = drawn.firstId};
     const auto dispatch = [&](const char* file, std::uint32_t count) {
-        const Pipeline& pipeline = rasterPipeline(file, frame, drawn, pass).get();
+        const Pipeline& pipeline = rasterPipeline(file, frame, drawn, target.pass).get();
         bind(commands, pipeline, drawn.set);
         block.count = count;
         for (std::uint32_t first = 0; first < groupsOf(count); first += kGroupsAtOnce) {
@@ -205,25 +224,34 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
         barrier(commands);
     };
     // No large triangles yet; as many tiles as the picture has.
-    const uvec2 tiles = (targetSize + uvec2(kLargeTile - 1)) / uvec2(kLargeTile);
+    const uvec2 tiles = (target.size + uvec2(kLargeTile - 1)) / uvec2(kLargeTile);
     const std::uint32_t none[] = {0, tiles.x * tiles.y, 1, 0};
     vkCmdUpdateBuffer(commands, buffers->large.handle.get(), 0, sizeof(none), none);
-    const MeshSize mesh = meshSizeOf(drawn);
     dispatch("raster_vertices.comp", mesh.vertexCount);
     dispatch("raster_triangles.comp", mesh.triangleCount);
-    if (pass == DrawPass::surface && frame.technique.hasLines) dispatch(kLineShader, mesh.triangleCount);
+    if (target.pass == DrawPass::surface && frame.technique.hasLines) dispatch(kLineShader, mesh.triangleCount);
     if (!drawsLarge) return;
-    const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, pass).get();
+    const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, target.pass).get();
     bind(commands, large, drawn.set);
     pushConstants(commands, large, block);
     vkCmdDispatchIndirect(commands, buffers->large.handle.get(), 0);
     barrier(commands);
 }
 
-void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target,
-                                uvec2 targetSize) {
-    vkCmdFillBuffer(commands, target.handle.get(), 0, VK_WHOLE_SIZE, 0); // nothing, farthest depth
-    for (const Drawn& drawn : frame.drawn) rasterizeMesh(commands, frame, drawn, pass, targetSize);
+void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, std::span<const RasterTarget> targets) {
+    for (const RasterTarget& target : targets)
+        vkCmdFillBuffer(commands, target.buffer.handle.get(), 0, VK_WHOLE_SIZE, 0); // nothing, farthest depth
+    for (const Drawn& drawn : frame.drawn) {
+        if (!drawn.diced.pieces) {
+            for (const RasterTarget& target : targets) rasterizeMesh(commands, frame, drawn, meshSizeOf(drawn), target);
+            continue;
+        }
+        const std::vector<MeshSize> pieces = Dicer::piecesOf(drawn.diced);
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            dicer.recordPiece(commands, drawn.diced, i);
+            for (const RasterTarget& target : targets) rasterizeMesh(commands, frame, drawn, pieces[i], target);
+        }
+    }
 }
 
 void Renderer::Parts::submit(Frame& frame) {

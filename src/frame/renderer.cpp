@@ -251,7 +251,7 @@ Rendering Renderer::Parts::begin(VkCommandBuffer commands, const Frame& frame, R
 
 void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
     if (frame.shadowRaster == Raster::compute) {
-        rasterize(commands, frame, DrawPass::shadow, buffers->shadow.buffer, uvec2(desc.shadowSide));
+        rasterize(commands, frame, shadowTarget());
         return;
     }
     Rendering rendering = begin(commands, frame, {{}, attachment(*shadow), uvec2(desc.shadowSide)});
@@ -261,7 +261,9 @@ void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
 
 void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) {
     if (frame.raster == Raster::compute) {
-        rasterize(commands, frame, DrawPass::surface, buffers->samples.buffer, size());
+        const RasterTarget both[] = {{DrawPass::surface, buffers->samples.buffer, size()}, shadowTarget()};
+        const bool drawsShadow = frame.isDicedInPieces() && frame.castsShadows();
+        rasterize(commands, frame, std::span(both).first(drawsShadow ? 2 : 1));
         if (frame.writesIds) resolve(commands, frame);
         return;
     }
@@ -284,7 +286,7 @@ void Renderer::Parts::record(VkCommandBuffer commands, Frame& frame) {
     timer.reset(commands);
     writeInputs(commands, frame);
     timer.stamp(commands);
-    if (frame.castsShadows()) shadowPass(commands, frame);
+    if (frame.castsShadows() && !frame.isDicedInPieces()) shadowPass(commands, frame);
     timer.stamp(commands);
     if (frame.countsPipeline()) counter.begin(commands);
     surfacePass(commands, frame);

@@ -111,6 +111,9 @@ struct Renderer::Parts {
         [[nodiscard]] bool rastersInCompute() const {
             return raster == Raster::compute || shadowRaster == Raster::compute;
         }
+        [[nodiscard]] bool isDicedInPieces() const {
+            return std::ranges::any_of(drawn, [](const Drawn& each) { return each.diced.pieces != nullptr; });
+        }
         [[nodiscard]] bool hasOcclusion() const {
             return technique.isLit && options.lighting.occlusionRadius > 0 &&
                    (shading == kShadingPhysical || shading == kShadingConserving);
@@ -179,7 +182,9 @@ struct Renderer::Parts {
     Rendering begin(VkCommandBuffer commands, const Frame& frame, Rendering::Targets all) const;
 
     // The compute rasterizer: raster.cpp.
+    [[nodiscard]] std::string obstacleToPicture(const Frame& frame) const;
     [[nodiscard]] std::string obstacleToRaster(const Frame& frame) const;
+    [[nodiscard]] std::optional<std::uint64_t> pieceTrianglesOf(const Frame& frame) const;
     void chooseRasters(Frame& frame, std::uint64_t triangleCount) const;
     [[nodiscard]] bool needsIds(const Frame& frame) const;
     void useBuffers(Frame& frame);
@@ -193,9 +198,23 @@ struct Renderer::Parts {
     void submit(Frame& frame);
     void submitRastered(const std::function<void(VkCommandBuffer)>& record);
     const PendingPipeline& rasterPipeline(const char* file, const Frame& frame, const Drawn& drawn, DrawPass pass);
-    /// Clears the target of a pass, and writes all instances to it.
-    void rasterize(VkCommandBuffer commands, const Frame& frame, DrawPass pass, const Buffer& target, uvec2 targetSize);
-    void rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, DrawPass pass, uvec2 size);
+    /// What a pass writes.
+    struct RasterTarget {
+        DrawPass pass;
+        const Buffer& buffer;
+        uvec2 size;
+    };
+    [[nodiscard]] RasterTarget shadowTarget() const {
+        return {DrawPass::shadow, buffers->shadow.buffer, uvec2(desc.shadowSide)};
+    }
+    /// Clears the targets of passes, and writes all instances to them: in one go, because a surface that is diced in
+    /// pieces is diced once per call.
+    void rasterize(VkCommandBuffer commands, const Frame& frame, std::span<const RasterTarget> targets);
+    void rasterize(VkCommandBuffer commands, const Frame& frame, const RasterTarget& target) {
+        rasterize(commands, frame, std::span(&target, 1));
+    }
+    void rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, const Dicer::PieceSize& mesh,
+                       const RasterTarget& target);
 
     // Passes.
     void shadowPass(VkCommandBuffer commands, const Frame& frame);

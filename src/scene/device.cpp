@@ -78,7 +78,9 @@ std::vector<std::string> listLimits(const DeviceTraits& traits) {
     add(!traits.hasTessellation, "no tessellation shaders: --path tessellation is refused");
     add(!traits.evaluatesInVertexStages,
         "storage buffers go wrong in vertex shaders: --path tessellation and --path grid are refused");
-    add(!traits.hasWireframe, "no wireframe: --show wireframe is refused");
+    add(!traits.hasWireframe, traits.hasLongAtomics
+                                  ? "no wireframe: --show wireframe is drawn by --raster compute alone"
+                                  : "no wireframe: --show wireframe is refused");
     add(traits.hasTessellation && !traits.hasTransformFeedback,
         "no transform feedback: relief check cannot certify --path tessellation");
     add(!traits.hasVertexStores, "no stores from vertex shaders: relief check cannot certify --path grid");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "shared/dice.h"
 #include "shared/rates.h"
@@ -24,25 +25,49 @@ std::uint32_t firstIn(std::uint32_t cell, std::uint32_t depth, std::uint32_t n) 
 
 class WorkBuilder {
 public:
-    WorkBuilder(const SurfaceModel& model, const DiceTable& table, const EdgeRates& rates, bool makesPieces)
-        : model_(model), table_(table), rates_(rates), makesPieces_(makesPieces) {}
+    WorkBuilder(const SurfaceModel& model, const DiceTable& table, const EdgeRates& rates, bool makesPieces,
+                std::uint64_t pieceTriangles)
+        : model_(model), table_(table), rates_(rates), makesPieces_(makesPieces), pieceTriangles_(pieceTriangles) {}
 
     DiceWork build() {
         addRuns();
+        work_.pieces.emplace_back();
         for (std::uint32_t face = 0; face < model_.faces.size(); ++face) {
             work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
             work_.faceRates.push_back(0);
-            work_.firstInsides.push_back(std::uint32_t(work_.vertexCount));
+            work_.firstInsides.push_back(std::uint32_t(nextVertex()));
             if (model_.faces[face].root != kNoPatch) addFace(face);
         }
         work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
-        const auto others = std::stable_partition(work_.insides.begin(), work_.insides.end(),
-                                                  [&](const InsideTile& tile) { return isRegular(tile); });
-        work_.regularCount = std::size_t(others - work_.insides.begin());
+        sortInsides();
         return std::move(work_);
     }
 
 private:
+    [[nodiscard]] DicePiece& piece() { return work_.pieces.back(); }
+    /// Of the piece: those on edges come first.
+    [[nodiscard]] std::uint64_t nextVertex() { return work_.runVertexCount + piece().insideVertexCount; }
+
+    void addInsideVertices(std::uint64_t count) {
+        piece().insideVertexCount += count;
+        work_.vertexCount += count;
+        work_.sampleCount += count;
+    }
+
+    /// The tiles of regular patches come first, each kind in the order of pieces.
+    void sortInsides() {
+        const auto others = std::stable_partition(work_.insides.begin(), work_.insides.end(),
+                                                  [&](const InsideTile& tile) { return isRegular(tile); });
+        work_.regularCount = std::size_t(others - work_.insides.begin());
+        std::size_t regular = 0, other = work_.regularCount, ring = 0, cell = 0;
+        for (DicePiece& each : work_.pieces) {
+            each.regularInsides.first = std::exchange(regular, regular + each.regularInsides.count);
+            each.otherInsides.first = std::exchange(other, other + each.otherInsides.count);
+            each.rings.first = std::exchange(ring, ring + each.rings.count);
+            each.cells.first = std::exchange(cell, cell + each.cells.count);
+        }
+    }
+
     void addRuns() {
         for (const VertexRun& run : table_.runs) {
             work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
@@ -50,6 +75,7 @@ private:
         }
         for (std::uint32_t run = 0; run < table_.firstSmoothRun; ++run) splitRun(run);
         work_.runFirsts.push_back(std::uint32_t(work_.vertexCount));
+        work_.runVertexCount = work_.vertexCount;
         work_.sampleCount = model_.cornerFlags.size();
         for (std::uint32_t edge = 0; edge < model_.edges.size(); ++edge) work_.sampleCount += rates_.segments(edge) - 1;
     }
@@ -61,7 +87,7 @@ private:
         const std::uint32_t n = rates_.segments(edge);
         const auto [first, end] =
             makesPieces_ ? samplesIn(table_.bicubicSpans[run], n, rates_.rates[edge]) : std::pair{n, n};
-        if (first < end) work_.pieces.push_back({run, first, end, 0});
+        if (first < end) work_.edgePieces.push_back({run, first, end, 0});
         for (std::uint32_t k = 1; k < n; ++k)
             if (k < first || k >= end) work_.otherVertices.push_back(vertex + k - 1);
     }
@@ -71,19 +97,24 @@ private:
         work_.faceRates.back() = std::uint32_t(std::ceil(f.largestRate));
         work_.maxRate = std::max(work_.maxRate, work_.faceRates.back());
         const std::uint64_t triangles = dicedTriangles({f.sides, std::size_t(model_.sideCount)});
-        const std::uint32_t firstVertex = work_.firstInsides.back();
+        if (piece().triangleCount > 0 && piece().triangleCount + triangles > pieceTriangles_)
+            work_.pieces.emplace_back();
+        const auto firstVertex = std::uint32_t(nextVertex());
         const auto sides = std::uint32_t(model_.sideCount);
         const uvec2 lattice = formulas::latticeSegments(sides, f.sides[0], f.sides[1], f.sides[2], f.sides[3]);
         // A face of one segment per side has no lattice: all its triangles are at edges.
         const std::uint64_t cells = std::max(f.u, f.v) == 1 ? 0 : formulas::cellTriangles(sides, lattice);
         const std::uint64_t atEdges = triangles - cells;
         // Triangles at edges and those of the lattice go to two passes, in tiles of one work group each.
-        const auto addTiles = [&](std::vector<TriangleTile>& tiles, std::uint64_t first, std::uint64_t end) {
-            for (; first < end; first += kTrianglesPerTile)
-                tiles.push_back({face, std::uint32_t(first), std::uint32_t(work_.triangleCount + first), firstVertex});
+        const auto addTiles = [&](std::vector<TriangleTile>& tiles, DiceRange& range, std::uint64_t first,
+                                  std::uint64_t end) {
+            for (; first < end; first += kTrianglesPerTile, ++range.count)
+                tiles.push_back(
+                    {face, std::uint32_t(first), std::uint32_t(piece().triangleCount + first), firstVertex});
         };
-        addTiles(work_.rings, 0, atEdges);
-        addTiles(work_.cells, atEdges, triangles);
+        addTiles(work_.rings, piece().rings, 0, atEdges);
+        addTiles(work_.cells, piece().cells, atEdges, triangles);
+        piece().triangleCount += triangles;
         work_.triangleCount += triangles;
         // Samples inside the face; those on edges and in corners are added per edge and corner.
         if (std::max(f.u, f.v) == 1) return;
@@ -91,12 +122,11 @@ private:
             addTriangleInside(face, formulas::atLeastInner(3, f.u));
         else
             addQuadInside(face, f);
-        work_.sampleCount += work_.vertexCount - firstVertex;
     }
 
     void addTriangleInside(std::uint32_t face, std::uint32_t n) {
-        addTiles({face, 0, 0, 0, packed(n, n), 0, 0, std::uint32_t(work_.vertexCount)}, {1, 1}, {n - 1, n - 1});
-        work_.vertexCount += std::uint64_t(n - 1) * (n - 2) / 2;
+        addTiles({face, 0, 0, 0, packed(n, n), 0, 0, std::uint32_t(nextVertex())}, {1, 1}, {n - 1, n - 1});
+        addInsideVertices(std::uint64_t(n - 1) * (n - 2) / 2);
     }
 
     void addQuadInside(std::uint32_t face, const FaceSegments& f) {
@@ -108,10 +138,10 @@ private:
             const std::uint32_t j0 = firstSample(leaf.v, leaf.depth, n, f.rateV),
                                 j1 = firstSample(leaf.v + 1, leaf.depth, n, f.rateV);
             addTiles({face, leaf.patchIndex, 0, 0, packed(m, n), leaf.depth, packed(leaf.u, leaf.v),
-                      std::uint32_t(work_.vertexCount)},
+                      std::uint32_t(nextVertex())},
                      {i0, j0}, {i1, j1});
         }
-        work_.vertexCount += std::uint64_t(m - 1) * (n - 1);
+        addInsideVertices(std::uint64_t(m - 1) * (n - 1));
     }
 
     [[nodiscard]] bool isRegular(const InsideTile& tile) const {
@@ -128,6 +158,7 @@ private:
                 tile.firstIJ = packed(i, j);
                 tile.sizeIJ = packed(std::min(columns, end.x - i), std::min(rows, end.y - j));
                 work_.insides.push_back(tile);
+                ++(isRegular(tile) ? piece().regularInsides : piece().otherInsides).count;
             }
     }
 
@@ -145,13 +176,27 @@ private:
     const DiceTable& table_;
     const EdgeRates& rates_;
     bool makesPieces_;
+    std::uint64_t pieceTriangles_;
     DiceWork work_;
 };
 
 } // namespace
 
-DiceWork planDicing(const SurfaceModel& model, const DiceTable& table, const EdgeRates& rates, bool makesPieces) {
-    return WorkBuilder(model, table, rates, makesPieces).build();
+std::uint64_t DiceWork::mostVertices() const {
+    std::uint64_t most = 0;
+    for (const DicePiece& piece : pieces) most = std::max(most, piece.insideVertexCount);
+    return runVertexCount + most;
+}
+
+std::uint64_t DiceWork::mostTriangles() const {
+    std::uint64_t most = 0;
+    for (const DicePiece& piece : pieces) most = std::max(most, piece.triangleCount);
+    return most;
+}
+
+DiceWork planDicing(const SurfaceModel& model, const DiceTable& table, const EdgeRates& rates, bool makesPieces,
+                    std::uint64_t pieceTriangles) {
+    return WorkBuilder(model, table, rates, makesPieces, pieceTriangles).build();
 }
 
 } // namespace relief

@@ -120,19 +120,25 @@ std::uint64_t dicedTriangles(std::span<const std::uint32_t> sideRates);
 
 // --- diced meshes -------------------------------------------------------------------------------------------------
 
+struct DicedPieces;
+
 /// An indexed mesh on the device: every distinct sample of the surface once, repeated with the same position bits only
-/// where normals or texture coordinates differ.
+/// where normals or texture coordinates differ. Or the buffers for one piece of a large mesh after the other: each is
+/// written by what Dicer::recordPiece() records, and read before the next one.
 struct DicedMesh {
-    TexelBuffer vertices;                      ///< two texels each: position and height, normal
-    TexelBuffer texCoords;                     ///< empty unless asked for
-    TexelBuffer texGradients;                  ///< as kBindMeshTexGradients; empty unless asked for
-    TexelBuffer indices;                       ///< three 32-bit indices per triangle, face after face
-    std::vector<std::uint32_t> firstTriangles; ///< of each face; one more at the end
-    std::vector<std::uint32_t> faceRates;      ///< the largest around each face
-    std::vector<std::uint32_t> runFirsts;      ///< first vertex of each run along edges; one more at the end
-    std::vector<DicedFacePush> faces;          ///< where vertices lie in each face; empty unless asked for
-    std::uint64_t sampleCount = 0;             ///< distinct samples
-    std::uint32_t vertexCount = 0, triangleCount = 0, maxRate = 0;
+    TexelBuffer vertices;                             ///< two texels each: position and height, normal
+    TexelBuffer texCoords;                            ///< empty unless asked for
+    TexelBuffer texGradients;                         ///< as kBindMeshTexGradients; empty unless asked for
+    TexelBuffer indices;                              ///< three 32-bit indices per triangle, face after face
+    std::vector<std::uint32_t> firstTriangles;        ///< of each face; one more at the end
+    std::vector<std::uint32_t> faceRates;             ///< the largest around each face
+    std::vector<std::uint32_t> runFirsts;             ///< first vertex of each run along edges; one more at the end
+    std::vector<DicedFacePush> faces;                 ///< where vertices lie in each face; empty unless asked for
+    std::uint64_t sampleCount = 0;                    ///< distinct samples of the surface
+    std::uint64_t allTriangles = 0;                   ///< of the surface
+    std::uint32_t vertexCount = 0, triangleCount = 0; ///< in the buffers at most
+    std::uint32_t maxRate = 0;
+    std::shared_ptr<const DicedPieces> pieces; ///< null: the buffers hold all of it
     bool hasTexCoords = false;
     std::uint64_t byteCount = 0;
     double milliseconds = 0;       ///< on the device; 0 where it cannot time
@@ -144,6 +150,9 @@ struct DiceOptions {
     bool wantsTexCoords = false, wantsTexGradients = false;
     bool wantsFaces = false; ///< DicedMesh::faces: 120 bytes of host memory per face
     std::optional<std::uint64_t> memory;
+    /// Where the mesh has more triangles it is made in pieces of at most as many (a face is in one piece); default:
+    /// never.
+    std::optional<std::uint64_t> pieceTriangles;
     bool timesVertices = false; ///< apart from the triangles: one more wait for the device
 };
 
@@ -154,6 +163,14 @@ public:
 
     /// Throws Failure::device when the mesh would take more than the memory allowed, before anything is allocated.
     DicedMesh dice(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
+    /// Vertices and triangles of one piece of a mesh.
+    struct PieceSize {
+        std::uint32_t vertexCount, triangleCount;
+    };
+    /// Of a mesh that is diced in pieces.
+    static std::vector<PieceSize> piecesOf(const DicedMesh& mesh);
+    /// Records how piece `number` of a mesh is written to its buffers; those on edges come with piece 0.
+    void recordPiece(VkCommandBuffer commands, const DicedMesh& mesh, std::size_t number) const;
     /// Dices the surface and reads the mesh back to host memory. Throws as dice() does.
     DenseMesh diceToHost(const SurfaceModel& model, const EdgeRates& rates, const DiceOptions& options = {});
     /// Starts to make the pipelines that dice() will need, before there are rates. `hasMips`: a guess at
