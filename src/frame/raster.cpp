@@ -19,9 +19,11 @@ constexpr std::uint64_t kMostIds = std::uint64_t(1) << 30;
 constexpr const char* kLargeShader = "raster_large.comp";
 constexpr const char* kLineShader = "raster_lines.comp";
 
-/// Triangles of a piece of a diced surface, where all it needs is samples: vertices, their places on the screen and
-/// indices of a piece take some 40 MB.
+/// Triangles of a piece of a diced surface: vertices, their places on the screen and indices of a piece take some 40
+/// MB.
 constexpr std::uint64_t kPieceTriangles = std::uint64_t(1) << 20;
+/// The same where each piece costs one more pass over the samples (resolve()).
+constexpr std::uint64_t kResolvedPieceTriangles = 4 * kPieceTriangles;
 
 using MeshSize = Dicer::PieceSize;
 
@@ -75,12 +77,15 @@ std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
     return "";
 }
 
-/// Pieces are forgotten once they are samples: only samples that hold all that light needs can be made of them.
+/// Pieces are forgotten once they are samples with their normals and colours. What belongs to faces, or is asked for
+/// once more afterwards, needs the whole mesh.
 std::optional<std::uint64_t> Renderer::Parts::pieceTrianglesOf(const Frame& frame) const {
     const bool mayRaster = frame.options.raster == Raster::compute ||
                            (frame.options.raster == Raster::automatic && device.traits().rastersFasterInCompute);
-    if (!mayRaster || needsIds(frame) || !frame.options.layers.empty() || !obstacleToPicture(frame).empty()) return {};
-    return frame.options.pieceTriangles.value_or(kPieceTriangles);
+    const bool needsWhole = frame.technique.wantsFaces || rowOf(frame.technique.pass).namesPoints ||
+                            frame.shading == kShadingVertexTable || !frame.options.layers.empty();
+    if (!mayRaster || needsWhole || !obstacleToPicture(frame).empty()) return {};
+    return frame.options.pieceTriangles.value_or(needsIds(frame) ? kResolvedPieceTriangles : kPieceTriangles);
 }
 
 /// The picture and its shadow map each by what suits the size of that many triangles in them.
@@ -130,7 +135,7 @@ void Renderer::Parts::useBuffers(Frame& frame) {
     std::uint32_t firstId = 0;
     for (Drawn& drawn : frame.drawn) {
         drawn.firstId = firstId;
-        firstId += meshSizeOf(drawn).triangleCount;
+        firstId += drawn.mesh != nullptr ? drawn.mesh->triangleCount : std::uint32_t(drawn.diced.allTriangles);
         drawn.bindings[kBindScreen] = buffers->screen.binding();
         drawn.bindings[kBindSamples] = buffers->samples.binding();
         drawn.inputs.targets.screen = buffers->screen.buffer.address;
@@ -207,11 +212,11 @@ const PendingPipeline& Renderer::Parts::rasterPipeline(const char* file, const F
 }
 
 void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn,
-                                    const Dicer::PieceSize& mesh, const RasterTarget& target) {
+                                    const Dicer::PieceSize& mesh, std::uint32_t firstId, const RasterTarget& target) {
     const Camera& camera = frame.options.camera;
     RasterPush block{.size = ivec2(target.size),
                      .depthAtInfinity = float(-camera.nearDistance / (camera.farDistance - camera.nearDistance)),
-                     .firstId = drawn.firstId};
+                     .firstId = firstId};
     const auto dispatch = [&](const char* file, std::uint32_t count) {
         const Pipeline& pipeline = rasterPipeline(file, frame, drawn, target.pass).get();
         bind(commands, pipeline, drawn.set);
@@ -243,13 +248,21 @@ void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, st
         vkCmdFillBuffer(commands, target.buffer.handle.get(), 0, VK_WHOLE_SIZE, 0); // nothing, farthest depth
     for (const Drawn& drawn : frame.drawn) {
         if (!drawn.diced.pieces) {
-            for (const RasterTarget& target : targets) rasterizeMesh(commands, frame, drawn, meshSizeOf(drawn), target);
+            for (const RasterTarget& target : targets)
+                rasterizeMesh(commands, frame, drawn, meshSizeOf(drawn), drawn.firstId, target);
             continue;
         }
         const std::vector<MeshSize> pieces = Dicer::piecesOf(drawn.diced);
+        std::uint32_t firstId = drawn.firstId;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             dicer.recordPiece(commands, drawn.diced, i);
-            for (const RasterTarget& target : targets) rasterizeMesh(commands, frame, drawn, pieces[i], target);
+            for (const RasterTarget& target : targets) {
+                rasterizeMesh(commands, frame, drawn, pieces[i], firstId, target);
+                // What later pieces hide is written over: of each sample the last one to write is the nearest one.
+                if (target.pass == DrawPass::surface && frame.writesIds)
+                    resolveMesh(commands, frame, drawn, pieces[i], firstId);
+            }
+            firstId += pieces[i].triangleCount;
         }
     }
 }
@@ -279,14 +292,16 @@ void Renderer::Parts::submitRastered(const std::function<void(VkCommandBuffer)>&
     }
 }
 
-/// A pass over all pixels for the triangles of one instance.
-void Renderer::Parts::dispatchPixels(VkCommandBuffer commands, const Pipeline& pipeline, const Drawn& drawn) const {
+/// A pass over all pixels for the triangles of one instance, or of a piece of it.
+void Renderer::Parts::dispatchPixels(VkCommandBuffer commands, const Pipeline& pipeline, const Drawn& drawn,
+                                     std::uint32_t triangleCount, std::uint32_t firstId) const {
     pushConstants(commands, pipeline,
                   RasterPush{.size = ivec2(size()),
-                             .count = meshSizeOf(drawn).triangleCount,
-                             .firstId = drawn.firstId,
+                             .count = triangleCount,
+                             .firstId = firstId,
                              .faceCount = std::uint32_t(drawn.diced.faceRates.size())});
     vkCmdDispatch(commands, std::uint32_t(desc.width + 7) / 8, std::uint32_t(desc.height + 7) / 8, 1);
+    barrier(commands);
 }
 
 const PendingPipeline& Renderer::Parts::resolvePipeline(const Frame& frame, const Drawn& drawn) {
@@ -297,14 +312,18 @@ const PendingPipeline& Renderer::Parts::resolvePipeline(const Frame& frame, cons
     return computePipeline("raster_resolve.comp", constants, {.function = drawn.bendingFunction()});
 }
 
-/// Normals and colours of the triangles that samples name.
+/// Normals and colours of the triangles of a mesh, or of a piece of one, that samples name.
+void Renderer::Parts::resolveMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn,
+                                  const Dicer::PieceSize& mesh, std::uint32_t firstId) {
+    const Pipeline& pipeline = resolvePipeline(frame, drawn).get();
+    bind(commands, pipeline, drawn.set);
+    dispatchPixels(commands, pipeline, drawn, mesh.triangleCount, firstId);
+}
+
+/// Those of all meshes that are there as a whole.
 void Renderer::Parts::resolve(VkCommandBuffer commands, const Frame& frame) {
-    for (const Drawn& drawn : frame.drawn) {
-        const Pipeline& pipeline = resolvePipeline(frame, drawn).get();
-        bind(commands, pipeline, drawn.set);
-        dispatchPixels(commands, pipeline, drawn);
-    }
-    barrier(commands);
+    for (const Drawn& drawn : frame.drawn)
+        if (!drawn.diced.pieces) resolveMesh(commands, frame, drawn, meshSizeOf(drawn), drawn.firstId);
 }
 
 /// What layers.comp reads, of the triangles that samples name.
@@ -315,9 +334,8 @@ void Renderer::Parts::resolveLayers(VkCommandBuffer commands, const Frame& frame
                             {.function = drawn.bendingFunction(), .isTriangles = drawn.isTriangles()})
                 .get();
         bind(commands, pipeline, drawn.set);
-        dispatchPixels(commands, pipeline, drawn);
+        dispatchPixels(commands, pipeline, drawn, meshSizeOf(drawn).triangleCount, drawn.firstId);
     }
-    barrier(commands);
 }
 
 } // namespace relief

@@ -191,7 +191,10 @@ struct Renderer::Parts {
     void makeMeshBuffers(const Frame& frame);
     const PendingPipeline& resolvePipeline(const Frame& frame, const Drawn& drawn);
     void resolve(VkCommandBuffer commands, const Frame& frame);
-    void dispatchPixels(VkCommandBuffer commands, const Pipeline& pipeline, const Drawn& drawn) const;
+    void resolveMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, const Dicer::PieceSize& mesh,
+                     std::uint32_t firstId);
+    void dispatchPixels(VkCommandBuffer commands, const Pipeline& pipeline, const Drawn& drawn,
+                        std::uint32_t triangleCount, std::uint32_t firstId) const;
     void resolveLayers(VkCommandBuffer commands, const Frame& frame);
     void useDicedFaces(Drawn& drawn);
     void useSampleTables(Frame& frame, bool writesColors);
@@ -214,7 +217,7 @@ struct Renderer::Parts {
         rasterize(commands, frame, std::span(&target, 1));
     }
     void rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn, const Dicer::PieceSize& mesh,
-                       const RasterTarget& target);
+                       std::uint32_t firstId, const RasterTarget& target);
 
     // Passes.
     void shadowPass(VkCommandBuffer commands, const Frame& frame);

@@ -350,8 +350,9 @@ TEST_F(Raster, isAsNearToALargePictureAsTheFixedFunction) {
 
 /// The same samples come of the same vertices, in less memory, with shadows and further lights, and no crack between
 /// pieces.
-TEST_F(Raster, drawsASurfaceInPieces) {
+void expectSameInPieces(std::span<const Instance> instances, Show show) {
     RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
+    options.show = show;
     options.rate.reset(); // faces differ in their numbers of segments
     options.edgePixels = 0.4;
     options.lighting.keyElevation = 15;
@@ -362,9 +363,9 @@ TEST_F(Raster, drawsASurfaceInPieces) {
     for (const std::uint64_t pieceTriangles : {1u << 20, 20'000u, 1u}) {
         options.pieceTriangles = pieceTriangles;
         device().startPeak();
-        const Picture picture = rasterRenderer().render(scene().plain, options);
+        const Picture picture = rasterRenderer().render(instances, options);
         const std::uint64_t bytes = device().peakBytes();
-        const std::vector<int> sums = rasterRenderer().countCrossings(scene().plain, options);
+        const std::vector<int> sums = rasterRenderer().countCrossings(instances.front(), options);
         if (whole.empty()) {
             whole = picture.halves, crossings = sums;
             wholeBytes = bytes, triangleCount = picture.stats.triangleCount;
@@ -372,11 +373,21 @@ TEST_F(Raster, drawsASurfaceInPieces) {
             ASSERT_LT(triangleCount, 1u << 20);
         }
         EXPECT_EQ(picture.stats.triangleCount, triangleCount);
-        EXPECT_TRUE(picture.halves == whole) << pieceTriangles;
+        EXPECT_TRUE(picture.halves == whole) << int(show) << " pieces of " << pieceTriangles;
         EXPECT_TRUE(sums == crossings) << pieceTriangles;
         const std::uint64_t saved = pieceTriangles > 20'000 ? 0 : 16 * triangleCount; // of 28 and more
-        EXPECT_LE(bytes + saved, wholeBytes) << pieceTriangles;
+        EXPECT_LE(bytes + saved, wholeBytes) << int(show) << " pieces of " << pieceTriangles;
     }
+}
+
+TEST_F(Raster, drawsASurfaceInPieces) {
+    mat4 aside(1);
+    aside[3] = {0.6f, 0.4f, 0.3f, 1};
+    const Instance two[] = {{scene().model, {.albedo = vec3(0.8f, 0.1f, 0.1f)}}, {scene().bent, {}, aside}};
+    expectSameInPieces(std::span(two), Show::shaded);
+    const Instance plain(scene().plain);
+    for (const Show show : {Show::shaded, Show::height, Show::wireframe})
+        expectSameInPieces(std::span(&plain, 1), show);
 }
 
 // Mesa's CPU driver ended the process where dispatches were counted and draws followed.
