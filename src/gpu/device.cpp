@@ -22,7 +22,9 @@ const char* hintFor(VkResult result) {
     switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
     case VK_ERROR_OUT_OF_DEVICE_MEMORY: return ": out of memory; try a lower --rate or a smaller --size";
-    case VK_ERROR_DEVICE_LOST: return ": the device was lost";
+    case VK_ERROR_DEVICE_LOST:
+        return ": the device was lost; where it took too long, a lower --rate or a smaller --size helps";
+    case VK_ERROR_SURFACE_LOST_KHR: return ": the window's surface was lost";
     case VK_ERROR_INCOMPATIBLE_DRIVER:
         return ": no Vulkan driver is installed (on Debian: apt-get install mesa-vulkan-drivers), or there is no "
                "memory to load it";

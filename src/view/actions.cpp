@@ -70,9 +70,16 @@ void Viewer::apply(const Event& event) {
     case EventKind::size: {
         const ivec2 size(event.at);
         if (window_.size() == size) break;
-        // The window system resizes when it likes: later events count on the size.
         window_.resize(size);
-        for (int i = 0; i < 200 && window_.size() != size; ++i) window_.waitForEvents(0.01);
+        waitFor([&] { return window_.size() == size; });
+        break;
+    }
+    case EventKind::minimise:
+    case EventKind::restore: {
+        const bool isMinimised = event.kind == EventKind::minimise;
+        if (window_.isMinimised() == isMinimised) break;
+        window_.minimise(isMinimised);
+        waitFor([&] { return window_.isMinimised() == isMinimised; });
         break;
     }
     case EventKind::frame: seek(int(event.at.x)); break;
@@ -81,6 +88,11 @@ void Viewer::apply(const Event& event) {
     case EventKind::close: isClosed_ = true; break;
     default: break;
     }
+}
+
+/// The window system does what it is asked for when it likes, or never: later events count on it.
+void Viewer::waitFor(const std::function<bool()>& isSo) {
+    for (int i = 0; i < 200 && !isSo(); ++i) window_.waitForEvents(0.01);
 }
 
 // --- mouse ---------------------------------------------------------------------------------------------------------
@@ -290,6 +302,7 @@ void Viewer::report() {
                                 {"device_bytes", device_->allocatedBytes()},
                                 {"host_bytes", hostBytes()},
                                 {"frame", state_.look.frame},
+                                {"minimised", window_.isMinimised()},
                                 {"triangles", stats_.triangleCount},
                                 {"error", state_.error},
                                 {"notice", state_.notice},

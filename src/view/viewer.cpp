@@ -219,7 +219,10 @@ void Viewer::fitToWindow() {
 
 void Viewer::draw(double now) {
     const ivec2 size = window_.size();
-    if (size.x < 1 || size.y < 1) return;
+    if (size.x < 1 || size.y < 1) { // minimised; once it is back everything is to be seen
+        uiFrames_ = kFramesAfterEvent;
+        return;
+    }
     if (uvec2(size) != uvec2(swapchain_->extent().width, swapchain_->extent().height)) fitToWindow();
     const Quality quality = pacing_.next(now);
     if (quality != Quality::none) drawPicture(quality);

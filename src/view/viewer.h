@@ -49,6 +49,7 @@ private:
     Event toMove(const Event& event);
     void record(const Event& event);
     void apply(const Event& event);
+    void waitFor(const std::function<bool()>& isSo);
     void press(const Event& event);
     void move(const dvec2& to);
     void pressKey(int key);

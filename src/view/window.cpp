@@ -108,6 +108,10 @@ void Window::listen() {
     glfwSetFramebufferSizeCallback(handle_, [](GLFWwindow* handle, int width, int height) {
         windowOf(handle).add({.kind = EventKind::size, .at = dvec2(width, height)});
     });
+    glfwSetWindowIconifyCallback(handle_, [](GLFWwindow* handle, int isMinimised) {
+        windowOf(handle).isMinimised_ = isMinimised == GLFW_TRUE;
+        windowOf(handle).add({.kind = isMinimised == GLFW_TRUE ? EventKind::minimise : EventKind::restore});
+    });
     glfwSetWindowRefreshCallback(handle_, [](GLFWwindow* handle) { // shown again: as if the cursor moved
         double x = 0, y = 0;
         glfwGetCursorPos(handle, &x, &y);
@@ -131,15 +135,25 @@ VkSurfaceKHR Window::makeSurface(VkInstance instance) const {
 double Window::scale() const {
     ivec2 units(1);
     glfwGetWindowSize(handle_, &units.x, &units.y);
-    return units.x > 0 ? double(size().x) / units.x : 1;
+    return units.x > 0 ? double(pixels().x) / units.x : 1;
 }
 
 bool Window::isClosing() const { return glfwWindowShouldClose(handle_) != 0; }
 
-ivec2 Window::size() const {
+ivec2 Window::pixels() const {
     ivec2 pixels(0);
     glfwGetFramebufferSize(handle_, &pixels.x, &pixels.y);
     return pixels;
+}
+
+/// Windows of X keep their size while they are minimised, those of Windows have none.
+ivec2 Window::size() const { return isMinimised_ ? ivec2(0) : pixels(); }
+
+void Window::minimise(bool isMinimised) {
+    if (isMinimised)
+        glfwIconifyWindow(handle_);
+    else
+        glfwRestoreWindow(handle_);
 }
 
 void Window::resize(const ivec2& size) {

@@ -26,6 +26,9 @@ public:
 
     [[nodiscard]] bool isClosing() const;
     [[nodiscard]] ivec2 size() const; ///< pixels; 0 while it is minimised
+    [[nodiscard]] bool isMinimised() const { return isMinimised_; }
+    /// Asks the desktop to minimise the window, or to show it again. It does so later, or not at all.
+    void minimise(bool isMinimised);
     void resize(const ivec2& size);
     void setTitle(const std::string& title);
     void copyText(const std::string& text);
@@ -37,10 +40,12 @@ public:
 
 private:
     void listen();
+    [[nodiscard]] ivec2 pixels() const; ///< also while it is minimised
     [[nodiscard]] double scale() const; ///< pixels per unit of the cursor
     void add(Event event) { events_.push_back(std::move(event)); }
 
     GLFWwindow* handle_ = nullptr;
+    bool isMinimised_ = false;
     std::deque<Event> events_;
 };
 

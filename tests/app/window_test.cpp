@@ -1,14 +1,19 @@
 // The window: sessions are played, and what they leave is compared with the other verbs.
 #include "display.h"
+#include "window_manager.h"
 
 namespace relief::test {
 namespace {
 
-TEST(Window, showsThePictureCodeForCode) {
+// Minimised it draws nothing, whatever happens; once it is back it shows what has happened.
+TEST(Window, showsThePictureCodeForCodeAlsoAfterItWasMinimised) {
     RELIEF_DISPLAY;
+    const WindowManager manager;
     const TemporaryFolder folder;
-    const std::string session = writeSession(
-        folder, "session", "key Tab\nrest\nscreenshot " + (folder / "a.png") + "\nkey Escape\nrest\nwait 3\nclose\n");
+    const std::string session =
+        writeSession(folder, "session",
+                     "key Tab\nrest\nminimise\nreport\nkey N\nwait 0.6\nreport\nrestore\nrest\nreport\nscreenshot " +
+                         (folder / "a.png") + "\nkey Escape\nrest\nwait 2\nclose\n");
     Program window({"view", cagePath("torus"), "--size", "320,240", "--play", session});
     // While it waits, the screen shows what was written.
     std::size_t different = 1;
@@ -21,7 +26,13 @@ TEST(Window, showsThePictureCodeForCode) {
         for (std::size_t k = 0; k < screen.size(); ++k) different += screen[k] != std::lround(255 * written.texels[k]);
     }
     EXPECT_EQ(different, 0u);
-    expectDone(window.wait());
+    const std::vector<nlohmann::json> reports = reportsOf(window.wait());
+    ASSERT_EQ(reports.size(), 3u);
+    EXPECT_EQ(reports[0]["minimised"], true);
+    EXPECT_EQ(reports[1]["pictures"], reports[0]["pictures"]);
+    EXPECT_EQ(reports[1]["frames"], reports[0]["frames"]);
+    EXPECT_EQ(reports[2]["minimised"], false);
+    EXPECT_GT(reports[2]["pictures"], reports[1]["pictures"]);
 }
 
 TEST(Window, writesWhatRenderWritesAfterEverythingThatAUserDoes) {

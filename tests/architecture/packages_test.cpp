@@ -26,6 +26,7 @@ const std::map<std::string, std::string> kPackageOf = {
     {"glslangValidator", "glslang-tools"},
     {"glslang", "glslang-dev"},
     {"glfw3", "libglfw3-dev"},
+    {"X11", "libglfw3-dev"}, // through libgl-dev, which it depends on
     {"imgui.h", "libimgui-dev"},
     {"imgui", "libimgui-dev"},
     {"stb", "libimgui-dev"},        // through libstb-dev, which it depends on

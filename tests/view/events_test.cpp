@@ -16,8 +16,8 @@ std::string roundTrip(const std::string& line) {
 TEST(Events, readBackAsTheyWereWritten) {
     for (const char* line :
          {"move 12.5 -3", "point 0.5 field of view", "press left shift", "press middle", "release right", "wheel -1",
-          "key F12", "key ?", "text a b", "drop /tmp/a file.obj", "size 640 400", "frame 12", "rest", "wait 0.5",
-          "screenshot out/a b.png", "report", "close"})
+          "key F12", "key ?", "text a b", "drop /tmp/a file.obj", "size 640 400", "minimise", "restore", "frame 12",
+          "rest", "wait 0.5", "screenshot out/a b.png", "report", "close"})
         EXPECT_EQ(roundTrip(line), line);
     for (const Word<int>& key : kKeys) EXPECT_EQ(parseEvent(std::string("key ") + key.word, "x")->key, key.value);
     EXPECT_EQ(roundTrip("# a comment"), "");
