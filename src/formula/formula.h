@@ -38,7 +38,7 @@ FunctionText readHeightFunction(const std::string& nameOrPath);
 
 /// A height function and the shaders that contain it. Each shader is compiled when it is first asked for, and kept in
 /// a folder of the user (cacheFolder) for the next process.
-class HeightFunction {
+class HeightFunction : public std::enable_shared_from_this<HeightFunction> {
 public:
     /// Compiles the function alone.
     /// Throws Failure::input with the file and line of an error, for text without the function `height`, and for text
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] std::uint32_t number() const;
 
     /// SPIR-V of a stage of the folder shaders/ with this function in it; empty for a stage that is
-    /// the same without it.
+    /// the same without it. It lives as long as the function. Several threads may ask, also for the evaluator.
     [[nodiscard]] std::span<const std::uint32_t> shader(std::string_view file, bool isTriangles,
                                                         TableAccess access) const;
     /// SPIR-V of FunctionEvaluator's shader, which contains nothing else than the function.
@@ -64,12 +64,16 @@ public:
         int compiledCount = 0, cachedCount = 0; ///< shaders that were compiled, and those that were kept from before
         double milliseconds = 0;
     };
-    [[nodiscard]] const Costs& costs() const;
+    [[nodiscard]] Costs costs() const;
 
 private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
+
+/// The function of that text. While one lives it is the same one, so that nothing is compiled again where only the
+/// scale of its heights changes. Throws as the constructor.
+std::shared_ptr<const HeightFunction> shareHeightFunction(FunctionText text);
 
 // --- values -------------------------------------------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 #include <atomic>
 #include <filesystem>
 #include <map>
+#include <mutex>
 #include <set>
 
 #include "base/clock.h"
@@ -60,6 +61,7 @@ struct HeightFunction::Parts {
     FunctionText function;
     IsolatedText isolated;
     std::uint32_t number = 0;
+    std::mutex mutex; ///< of what follows
     std::map<ShaderRequest, std::vector<std::uint32_t>> shaders;
     Costs costs;
 
@@ -98,6 +100,7 @@ Digest HeightFunction::Parts::digestOf(const ShaderRequest& request) const {
 }
 
 std::span<const std::uint32_t> HeightFunction::Parts::shader(const ShaderRequest& request) {
+    const std::lock_guard lock(mutex);
     const auto found = shaders.find(request);
     if (found != shaders.end()) return found->second;
     const double start = secondsNow();
@@ -117,7 +120,10 @@ std::span<const std::uint32_t> HeightFunction::Parts::shader(const ShaderRequest
 const std::string& HeightFunction::name() const { return parts_->function.name; }
 bool HeightFunction::statesBound() const { return parts_->isolated.statesBound; }
 std::uint32_t HeightFunction::number() const { return parts_->number; }
-const HeightFunction::Costs& HeightFunction::costs() const { return parts_->costs; }
+HeightFunction::Costs HeightFunction::costs() const {
+    const std::lock_guard lock(parts_->mutex);
+    return parts_->costs;
+}
 
 std::span<const std::uint32_t> HeightFunction::shader(std::string_view file, bool isTriangles,
                                                       TableAccess access) const {
@@ -126,5 +132,16 @@ std::span<const std::uint32_t> HeightFunction::shader(std::string_view file, boo
 }
 
 std::span<const std::uint32_t> HeightFunction::evaluator() const { return parts_->shader({}); }
+
+std::shared_ptr<const HeightFunction> shareHeightFunction(FunctionText text) {
+    static std::mutex mutex;
+    static std::map<std::pair<std::string, std::string>, std::weak_ptr<const HeightFunction>> living;
+    const std::lock_guard lock(mutex);
+    std::erase_if(living, [](const auto& each) { return each.second.expired(); });
+    std::weak_ptr<const HeightFunction>& kept = living[{text.name, text.text}];
+    std::shared_ptr<const HeightFunction> function = kept.lock();
+    if (!function) kept = function = std::make_shared<const HeightFunction>(std::move(text));
+    return function;
+}
 
 } // namespace relief

@@ -94,9 +94,7 @@ const PendingPipeline& Renderer::Parts::drawPipeline(const Frame& frame, const D
     graphics.additiveBlend = row.isAdditive;
     graphics.polygonMode = row.drawsLines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
     if (row.drawsLines) graphics.depthBiasUnits = kLineBiasUnits, graphics.depthBiasSlope = kLineBiasSlope;
-    // The code of a height function lives as long as the function: no thread may come to it later.
-    return pipelines[key] = drawn.function() != nullptr ? PendingPipeline(makeGraphics(device, graphics))
-                                                        : startGraphics(device, std::move(graphics));
+    return pipelines[key] = startGraphics(device, std::move(graphics));
 }
 
 const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const ShaderConstants& constants,
@@ -108,9 +106,8 @@ const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const 
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
     const Stage stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, variant.function, variant.isTriangles);
-    const ComputeDesc desc{.name = file, .stage = stage, .constants = values, .layout = passLayout(device)};
-    return pipelines[key] = variant.function != nullptr ? PendingPipeline(makeCompute(device, desc)) // as above
-                                                        : startCompute(device, desc);
+    return pipelines[key] =
+               startCompute(device, {.name = file, .stage = stage, .constants = values, .layout = passLayout(device)});
 }
 
 const PendingPipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLight) {
@@ -161,12 +158,9 @@ constexpr double kTrianglesPerPixel = 3;
 
 } // namespace
 
-/// Starts the pipelines that a picture most probably needs, before rates and triangles are known. Height functions are
-/// excluded: their pipelines are made at once, so that a wrong guess would cost time.
+/// Starts the pipelines that a picture most probably needs, before rates and triangles are known.
 void Renderer::Parts::startGuessedPipelines(Frame& frame) {
     const TriangleOptions& o = frame.options;
-    const auto isFunction = [](const Drawn& drawn) { return drawn.function() != nullptr; };
-    if (std::ranges::any_of(frame.drawn, isFunction)) return;
     double triangles = 0;
     for (const Drawn& drawn : frame.drawn) {
         if (drawn.mesh != nullptr) {

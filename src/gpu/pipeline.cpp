@@ -191,10 +191,6 @@ PendingPipeline::PendingPipeline(Device& device, std::function<Pipeline()> make)
     });
 }
 
-PendingPipeline::PendingPipeline(Pipeline made) : state_(std::make_shared<State>()) {
-    state_->pipeline = std::move(made);
-}
-
 const Pipeline& PendingPipeline::get() const {
     const std::lock_guard lock(state_->mutex);
     state_->finish();

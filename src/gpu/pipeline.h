@@ -11,6 +11,7 @@ namespace relief {
 struct Stage {
     VkShaderStageFlagBits stage;
     std::span<const std::uint32_t> code; ///< SPIR-V words
+    std::shared_ptr<const void> owner;   ///< keeps the code until the pipeline is made; null where it lasts anyway
 };
 
 /// What every pipeline is given: the kinds of set 0's bindings 0, 1, 2, ... and a block of push constants.
@@ -59,8 +60,6 @@ public:
     PendingPipeline() = default;
     /// Starts to make it.
     PendingPipeline(Device& device, std::function<Pipeline()> make);
-    /// One that is made already.
-    explicit PendingPipeline(Pipeline made);
     /// Waits for the pipeline, or makes it here where no thread has begun to. Throws what making it throws.
     const Pipeline& get() const;
 
@@ -69,7 +68,7 @@ private:
     std::shared_ptr<State> state_;
 };
 
-/// Starts to make what makeGraphics and makeCompute make. The code of the stages must live until the pipeline is made.
+/// Starts to make what makeGraphics and makeCompute make. Code without an owner must live until the pipeline is made.
 PendingPipeline startGraphics(Device& device, GraphicsDesc desc);
 PendingPipeline startCompute(Device& device, ComputeDesc desc);
 

@@ -184,7 +184,7 @@ Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string
                   const HeightFunction* function, bool isTriangles) {
     if (function != nullptr) {
         const std::span<const std::uint32_t> code = function->shader(file, isTriangles, device.traits().readsTablesAs);
-        if (!code.empty()) return {stage, code};
+        if (!code.empty()) return {stage, code, function->weak_from_this().lock()};
     }
     return shaderStage(device, stage, file, isTriangles);
 }

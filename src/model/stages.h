@@ -64,8 +64,8 @@ PipelineLayoutDesc tableLayout(const Device& device, std::uint32_t count, std::u
 
 /// SPIR-V of a stage for this device's way of reading tables, for faces with four sides or three.
 Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file, bool isTriangles = false);
-/// SPIR-V of a stage with a height function in it, where the stage depends on one; null: as above. It lives as long as
-/// the function.
+/// SPIR-V of a stage with a height function in it, where the stage depends on one; null: as above. A function that is
+/// shared is the owner of its code; the code of others lives as long as they do.
 Stage shaderStage(const Device& device, VkShaderStageFlagBits stage, std::string_view file,
                   const HeightFunction* function, bool isTriangles);
 /// SPIR-V of a stage that works on a surface, with the surface's height function if it has one.

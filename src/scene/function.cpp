@@ -142,7 +142,7 @@ void checkSize(const LoadedObject& object, double bound) {
 
 FunctionHeights loadFunction(const ObjectDesc& desc, const Cage& cage) {
     FunctionHeights heights;
-    heights.function = std::make_shared<const HeightFunction>(readHeightFunction(desc.height.function));
+    heights.function = shareHeightFunction(readHeightFunction(desc.height.function));
     heights.movesSurface = desc.height.detail != Detail::bump;
     heights.bendsNormals = desc.height.detail == Detail::bump || desc.height.detail == Detail::both;
     heights.unit = cage.coordinates.unit;

@@ -9,10 +9,8 @@ const PendingPipeline& ComputeStages::start(const char* file, const SurfaceModel
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
     const Stage stage = shaderStage(device_, VK_SHADER_STAGE_COMPUTE_BIT, file, model);
-    const ComputeDesc desc{
-        .name = file, .stage = stage, .constants = constants.values(), .layout = passLayout(device_)};
-    // The code of a height function lives as long as the function: no thread may come to it later.
-    return pipelines_[key] = model.function ? PendingPipeline(makeCompute(device_, desc)) : startCompute(device_, desc);
+    return pipelines_[key] = startCompute(
+               device_, {.name = file, .stage = stage, .constants = constants.values(), .layout = passLayout(device_)});
 }
 
 } // namespace relief

@@ -270,7 +270,7 @@ void Viewer::exportTurntable() {
     const std::string target = freeName("turntable", ".mp4");
     std::vector<std::string> words = toCommandWords("animate", desc_.given, desc_.look, shownLook());
     std::erase_if(words, [](const std::string& word) { return word.starts_with("--frames"); });
-    for (const char* word : {"--turntable=72", "--quiet", "--progress=never", "-o"}) words.emplace_back(word);
+    for (const char* word : {"--turntable=72", "--progress=never", "-o"}) words.emplace_back(word);
     words.push_back(target);
     export_.emplace(words, false);
     state_.notice = "writing " + target + " ...";

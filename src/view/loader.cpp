@@ -11,8 +11,17 @@ void Loader::ask(const Look& look) {
         start(look);
 }
 
+Loader::~Loader() {
+    isEnding_ = true;
+    if (isBusy()) running_.wait();
+}
+
 void Loader::start(const Look& look) {
-    running_ = std::async(std::launch::async, [this, look] { return prepareScene(desc_, look); });
+    running_ = std::async(std::launch::async, [this, look, device = device_, shown = shown_] {
+        Prepared prepared = prepareScene(desc_, look);
+        rehearse(desc_, device, shown, prepared, isEnding_);
+        return prepared;
+    });
 }
 
 std::optional<Loader::Result> Loader::take() {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <future>
 
-#include "view/shown_scene.h"
+#include "view/rehearsal.h"
 
 namespace relief {
 
@@ -12,6 +12,14 @@ namespace relief {
 class Loader {
 public:
     explicit Loader(const ViewDesc& desc) : desc_(desc) {}
+    ~Loader(); ///< waits for the step that it is at
+    Loader(const Loader&) = delete;
+    Loader& operator=(const Loader&) = delete;
+
+    /// The name of the window's device: height functions are rehearsed on another one of that name.
+    void useDevice(const std::string& name) { device_ = name; }
+    /// What the window shows needs no rehearsal.
+    void setShown(const PipelineKey& key) { shown_ = key; }
 
     void ask(const Look& look);
     [[nodiscard]] bool isBusy() const { return running_.valid(); }
@@ -25,6 +33,9 @@ public:
 private:
     void start(const Look& look);
     const ViewDesc& desc_;
+    std::string device_;
+    PipelineKey shown_;
+    std::atomic<bool> isEnding_ = false;
     std::future<Prepared> running_;
     std::optional<Look> next_;
 };

@@ -37,7 +37,9 @@ void makeTimeLine(ViewState& state, const ViewFacts& facts, const ivec2& size, P
 
 void makeBanner(const ViewState& state, const ViewFacts& facts, const ivec2& size) {
     const bool isError = !state.error.empty();
-    const std::string text = isError ? state.error : facts.isLoading ? "reading files ..." : state.notice;
+    const bool isFunction = !state.look.scene.object.height.function.empty();
+    const char* loading = isFunction ? "compiling the height function ..." : "reading files ...";
+    const std::string text = isError ? state.error : facts.isLoading ? loading : state.notice;
     if (text.empty()) return;
     const float left = state.showsPanels ? kPanelWidth + 2 * kMargin : kMargin;
     const float width = std::max(120.0f, float(size.x) - left - kMargin);

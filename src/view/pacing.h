@@ -14,6 +14,8 @@ public:
 
     /// What is to be shown is another picture from now on.
     void change(double now);
+    /// Nothing changes for a while: the next picture is a full one.
+    void settle() { changedAt_ = -1e9; }
     [[nodiscard]] Quality next(double now) const;
     /// How long next() answers `none`; negative where it does so until the next change.
     [[nodiscard]] double secondsOfRest(double now) const;

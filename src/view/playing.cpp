@@ -33,6 +33,7 @@ bool Viewer::takePlayed(double now) {
     switch (event.kind) {
     case EventKind::rest:
         if (isResting) played_.pop_front();
+        pacing_.settle();
         return false;
     case EventKind::wait:
         if (playedUntil_ == 0) playedUntil_ = now + event.at.x;

@@ -73,14 +73,24 @@ std::vector<CageEdge> listCageEdges(const Cage& cage) {
     return list;
 }
 
-ShownScene::ShownScene(Device& device, const ViewDesc& desc, Prepared prepared)
-    : device_(device), desc_(desc), look_(prepared.look) {
-    const ObjectDesc& asked = look_.scene.object;
+void measure(Device& device, Prepared& prepared) {
     const Warn warn = [&](const std::string& line) { prepared.warnings.push_back(line); };
-    if (prepared.loaded.object.function) { // what it displaces by is known to the device alone
-        measureFunction(device, prepared.loaded.object, asked.height, listTimes(prepared), warn);
-        prepared.points = computePoints(prepared);
-    }
+    LoadedObject& object = prepared.loaded.object;
+    measureFunction(device, object, prepared.look.scene.object.height, listTimes(prepared), warn);
+    prepared.points = computePoints(prepared);
+}
+
+PipelineKey keyOf(const Prepared& prepared) {
+    const LoadedObject& object = prepared.loaded.object;
+    return {.function = object.function ? object.function->function->number() : 0,
+            .detail = object.detail,
+            .cage = prepared.look.scene.object.cage};
+}
+
+ShownScene::ShownScene(Device& device, const ViewDesc& desc, Prepared prepared)
+    : device_(device), desc_(desc), look_(prepared.look), key_(keyOf(prepared)) {
+    const ObjectDesc& asked = look_.scene.object;
+    if (prepared.points.empty()) measure(device, prepared);
     loaded_ = std::move(prepared.loaded);
     frames_ = std::move(prepared.frames);
     points_ = std::move(prepared.points);

@@ -18,6 +18,19 @@ struct Prepared {
 /// Reads the files of `look`. Throws as load() does.
 Prepared prepareScene(const ViewDesc& desc, const Look& look);
 
+/// Measures the height function, which the device alone knows, and with it the outline. Throws as measureFunction().
+void measure(Device& device, Prepared& prepared);
+
+/// What pipelines with a height function are made for.
+struct PipelineKey {
+    std::uint32_t function = 0; ///< HeightFunction::number(), or 0
+    Detail detail{};
+    std::string cage; ///< its path: pipelines have the kinds of its patches
+
+    bool operator==(const PipelineKey&) const = default;
+};
+PipelineKey keyOf(const Prepared& prepared);
+
 /// `look` with what files and surfaces are made of as in `loaded`: what can be drawn before they are read anew.
 Look withFilesOf(const Look& loaded, const Look& look);
 
@@ -36,6 +49,7 @@ public:
     ShownScene(Device& device, const ViewDesc& desc, Prepared prepared);
 
     [[nodiscard]] const Look& look() const { return look_; } ///< that its files were read for
+    [[nodiscard]] const PipelineKey& pipelineKey() const { return key_; }
     [[nodiscard]] bool isMoving() const { return !frames_.empty(); }
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -63,6 +77,7 @@ private:
     Device& device_;
     const ViewDesc& desc_;
     Look look_;
+    PipelineKey key_;
     LoadedScene loaded_;
     std::vector<int> frames_;
     std::vector<dvec3> points_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include "base/clock.h"
 #include "view/recent.h"
@@ -20,6 +21,15 @@ std::string titleOf(const Look& look) {
 std::string lastLineOf(std::string text) {
     while (text.ends_with('\n')) text.pop_back();
     return text.substr(text.rfind('\n') + 1);
+}
+
+/// The lines in which a child process has warned of something.
+std::string warningsIn(const std::string& complaints) {
+    std::string warnings;
+    std::istringstream lines(complaints);
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("warning: ")) warnings += (warnings.empty() ? "" : "\n") + line;
+    return warnings;
 }
 
 } // namespace
@@ -45,6 +55,7 @@ Viewer::Viewer(const ViewDesc& desc, const Warn& warn)
         .name = desc.device, .surfaceExtensions = Window::listExtensions(), .makeSurface = [this](VkInstance instance) {
             return window_.makeSurface(instance);
         }});
+    for (Loader* loader : {&loader_, &otherLoader_}) loader->useDevice(device_->traits().name);
     const ivec2 size = glm::max(window_.size(), ivec2(1));
     swapchain_ = std::make_unique<Swapchain>(*device_, size.x, size.y);
     ui_ = std::make_unique<Ui>(*device_, *swapchain_);
@@ -69,6 +80,7 @@ ViewReport Viewer::run() {
     lastFrameAt_ = playStart_ = secondsNow();
     pacing_.change(lastFrameAt_);
     while (!isDone()) step();
+    window_.hide(); // a shader that is compiled has to be finished
     report_.deviceBytes = device_->allocatedBytes();
     if (!device_->validationMessages().empty())
         fail(Failure::internal, "the Vulkan validation layer has {} complaints", device_->validationMessages().size());
@@ -126,6 +138,7 @@ void Viewer::advanceTime(double now) {
 void Viewer::useScene(Prepared prepared) {
     auto scene = std::make_unique<ShownScene>(*device_, desc_, std::move(prepared));
     scene_ = std::move(scene);
+    loader_.setShown(scene_->pipelineKey());
     other_.reset();
     watch_.watch(listFiles(scene_->look().scene));
     if (scene_->isMoving())
@@ -158,6 +171,7 @@ void Viewer::takeLoaded() {
     if (auto result = otherLoader_.take()) {
         const auto take = [&](Prepared prepared) {
             other_ = std::make_unique<ShownScene>(*device_, desc_, std::move(prepared));
+            otherLoader_.setShown(other_->pipelineKey());
         };
         if (!use(*result, take)) state_.split = SplitKind::off, changePicture();
     }
@@ -172,23 +186,24 @@ void Viewer::watchFiles(double now) {
 /// Polls the child processes and shows the results of those that have ended.
 void Viewer::watchProcesses() {
     if (const std::optional<int> code = export_ ? export_->poll() : std::nullopt) {
-        const std::string complaints = lastLineOf(export_->complaints());
+        const std::string complaints = export_->complaints(), last = lastLineOf(complaints);
         export_.reset();
-        state_.notice = *code == 0 ? "the turntable is written" : "";
+        state_.notice = *code == 0 ? "the turntable is written\n" + warningsIn(complaints) : "";
         if (*code != 0)
-            state_.error = complaints.empty() ? fmt::format("the turntable ended with exit code {}", *code)
-                                              : "the turntable was not written: " + complaints;
+            state_.error = last.empty() ? fmt::format("the turntable ended with exit code {}", *code)
+                                        : "the turntable was not written: " + last;
         uiFrames_ = kFramesAfterEvent;
     }
     if (const std::optional<int> code = check_ ? check_->poll() : std::nullopt) {
-        const std::string text = check_->output(), complaints = lastLineOf(check_->complaints());
+        const std::string text = check_->output(), complaints = check_->complaints(), last = lastLineOf(complaints);
         check_.reset();
         if (state_.notice == kMakingCertificate) state_.notice.clear();
         state_.certificate = text;
         // Without a certificate it has said why, in its last line.
         if (text.empty())
-            state_.error =
-                complaints.empty() ? fmt::format("the certificate ended with exit code {}", *code) : complaints;
+            state_.error = last.empty() ? fmt::format("the certificate ended with exit code {}", *code) : last;
+        else if (const std::string warnings = warningsIn(complaints); !warnings.empty())
+            state_.notice = warnings;
         uiFrames_ = kFramesAfterEvent;
     }
 }

@@ -161,6 +161,11 @@ void Window::resize(const ivec2& size) {
     glfwSetWindowSize(handle_, std::max(1, int(size.x / perUnit)), std::max(1, int(size.y / perUnit)));
 }
 
+void Window::hide() {
+    glfwHideWindow(handle_);
+    glfwPollEvents();
+}
+
 void Window::setTitle(const std::string& title) { glfwSetWindowTitle(handle_, title.c_str()); }
 void Window::copyText(const std::string& text) { glfwSetClipboardString(handle_, text.c_str()); }
 

@@ -30,6 +30,7 @@ public:
     /// Asks the desktop to minimise the window, or to show it again. It does so later, or not at all.
     void minimise(bool isMinimised);
     void resize(const ivec2& size);
+    void hide();
     void setTitle(const std::string& title);
     void copyText(const std::string& text);
 

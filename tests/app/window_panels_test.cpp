@@ -94,7 +94,7 @@ TEST(WindowPanels, doWhatOptionsDo) {
     session.add("report\nclose");
     const std::vector<nlohmann::json> reports =
         reportsOf(relief({"view", cagePath("torus"), "--height", folder / "waves.png", "--scale", "0.2", "--deform",
-                          "twist(axis=y, angle=40)", "--frames", "0:20", "--size", "700,700", "--edge-pixels", "12",
+                          "twist(axis=y, angle=40)", "--frames", "0:20", "--size", "540,400", "--edge-pixels", "12",
                           "--play", writeSession(folder, "session", session.lines)}));
     ASSERT_EQ(reports.size(), 3u);
 
@@ -136,7 +136,7 @@ TEST(WindowPanels, doWhatOptionsDo) {
     }
 }
 
-// The buttons of files, and the keys that do the same.
+// The buttons of files, and the keys that do the same. The certificate is that of relief check, with its warnings.
 TEST(WindowPanels, writeWhatTheirButtonsSay) {
     RELIEF_DISPLAY;
     const TemporaryFolder folder;
@@ -154,17 +154,25 @@ TEST(WindowPanels, writeWhatTheirButtonsSay) {
     session.click("turntable");
     session.add("wait 0.2\nkey Q");
     writeSession(folder, "session", session.lines);
+    writeImage(folder / "eight.png", sineImage(16, 1), SampleType::uint8);
+    const std::string options = " --rate 3 --scale 0.01 --height " + folder / "eight.png";
     const std::vector<nlohmann::json> reports =
-        reportsOf(shell("cd $IN && RELIEF_CACHE=$IN/cache $RELIEF view " + cagePath("torus") +
-                            " --size 640,480 --rate 3 --play $IN/session",
+        reportsOf(shell("cd $IN && RELIEF_CACHE=$IN/cache $RELIEF view " + cagePath("torus") + options +
+                            " --size 400,300 --play $IN/session",
                         folder));
     ASSERT_EQ(reports.size(), 3u);
     EXPECT_TRUE(contains(reports[0]["notice"], "copied: relief render")) << reports[0];
-    for (const char* name : {"relief-1.png", "relief-2.png"}) expectSame(reports[0], folder / name, folder);
-    EXPECT_TRUE(contains(reports[1]["certificate"], "open edges")) << reports[1];
+    expectSame(reports[0], folder / "relief-1.png", folder);
+    EXPECT_TRUE(readFile(folder / "relief-1.png") == readFile(folder / "relief-2.png"));
+    const Outcome check = relief({"check", cagePath("torus")}, options);
+    EXPECT_EQ(reports[1]["certificate"], check.out);
+    EXPECT_TRUE(contains(check.out, "open edges")) << check.out;
+    EXPECT_EQ(reports[1]["notice"].get<std::string>() + "\n", check.err);
+    EXPECT_TRUE(contains(check.err, "warning: ") && contains(check.err, "8-bit")) << check.err;
     EXPECT_GE(reports[1]["reloads"], 1);
     EXPECT_EQ(reports[2]["command"][2], cagePath("torus"));
     EXPECT_EQ(reports[2]["certificate"], "");
+    EXPECT_EQ(readFile(folder / "cache/recent"), cagePath("torus") + "\n" + cagePath("cube") + "\n");
     // The turntable is written by a process of its own, which goes on when the window is closed.
     for (int i = 0; i < 3000 && !std::filesystem::exists(folder / "turntable-1.mp4"); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
