@@ -51,6 +51,8 @@ public:
     [[nodiscard]] bool statesBound() const;
     /// Differs from that of every other function of this process, and is not 0: for keys of pipelines.
     [[nodiscard]] std::uint32_t number() const;
+    /// Whether a function of that number exists. Pipelines of others are of no use any more.
+    [[nodiscard]] static bool lives(std::uint32_t number);
 
     /// SPIR-V of a stage of the folder shaders/ with this function in it; empty for a stage that is
     /// the same without it. It lives as long as the function. Several threads may ask, also for the evaluator.

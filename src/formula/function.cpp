@@ -1,4 +1,3 @@
-#include <atomic>
 #include <filesystem>
 #include <map>
 #include <mutex>
@@ -33,6 +32,18 @@ bool dependsOnFunction(std::string_view file) {
     return dependsOnFunction(file, seen);
 }
 
+/// Numbers of the functions that exist.
+struct Living {
+    std::mutex mutex;
+    std::uint32_t lastNumber = 0;
+    std::set<std::uint32_t> numbers;
+};
+
+Living& living() {
+    static Living all;
+    return all;
+}
+
 } // namespace
 
 std::vector<std::string> listHeightFunctions() {
@@ -58,6 +69,11 @@ FunctionText readHeightFunction(const std::string& nameOrPath) {
 }
 
 struct HeightFunction::Parts {
+    Parts();
+    ~Parts();
+    Parts(const Parts&) = delete;
+    Parts& operator=(const Parts&) = delete;
+
     FunctionText function;
     IsolatedText isolated;
     std::uint32_t number = 0;
@@ -69,9 +85,23 @@ struct HeightFunction::Parts {
     [[nodiscard]] Digest digestOf(const ShaderRequest& request) const;
 };
 
+HeightFunction::Parts::Parts() {
+    const std::lock_guard lock(living().mutex);
+    number = ++living().lastNumber;
+    living().numbers.insert(number);
+}
+
+HeightFunction::Parts::~Parts() {
+    const std::lock_guard lock(living().mutex);
+    living().numbers.erase(number);
+}
+
+bool HeightFunction::lives(std::uint32_t number) {
+    const std::lock_guard lock(living().mutex);
+    return living().numbers.contains(number);
+}
+
 HeightFunction::HeightFunction(FunctionText text) : parts_(std::make_unique<Parts>()) {
-    static std::atomic<std::uint32_t> lastNumber{0};
-    parts_->number = ++lastNumber;
     parts_->function = std::move(text);
     parts_->isolated = isolate(parts_->function);
     const std::size_t words = parts_->shader({}).size();

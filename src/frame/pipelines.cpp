@@ -77,6 +77,8 @@ const PendingPipeline& Renderer::Parts::drawPipeline(const Frame& frame, const D
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
 
+    std::erase_if(pipelines, [](const auto& each) { return areOfGoneFunction(each.first); });
+
     // The fixed state follows from the row of the pass.
     const DrawPassRow& row = rowOf(pass);
     const bool isPatches = drawn.surface != nullptr && frame.path == Path::tessellation;
@@ -105,6 +107,7 @@ const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const 
     for (const char* letter = file; *letter != 0; ++letter) key.push_back(std::uint32_t(*letter));
     const auto found = pipelines.find(key);
     if (found != pipelines.end()) return found->second;
+    std::erase_if(pipelines, [](const auto& each) { return areOfGoneFunction(each.first); });
     const Stage stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, variant.function, variant.isTriangles);
     return pipelines[key] =
                startCompute(device, {.name = file, .stage = stage, .constants = values, .layout = passLayout(device)});

@@ -120,6 +120,11 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     return values;
 }
 
+bool areOfGoneFunction(std::span<const std::uint32_t> values) {
+    const std::uint32_t number = values[kIdHeightFunction];
+    return number != 0 && !HeightFunction::lives(number);
+}
+
 ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal) {
     return {.hasTexCoords = model.hasTexCoords,
             .hasHeight = model.isDisplaced(),

@@ -47,6 +47,9 @@ struct ShaderConstants {
 ShaderConstants constantsOf(const SurfaceModel& model, NormalKind normal);
 ShaderConstants constantsOf(const MeshModel& model);
 
+/// Whether pipelines of these values() are of a height function that is gone: nobody asks for them again.
+bool areOfGoneFunction(std::span<const std::uint32_t> values);
+
 // --- tables --------------------------------------------------------------------------------------------------------
 
 /// The most bytes that shaders read from one table of elements of that many bytes.

@@ -60,6 +60,7 @@ void makeHelp(const ViewState& state, const ivec2& size) {
     // As high as the list, or as the window, and scrolled there.
     ImGui::SetNextWindowPos({0.5f * float(size.x), 0.5f * float(size.y)}, 0, {0.5f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {float(size.x), std::max(80.0f, float(size.y) - 2 * kMargin)});
+    ImGui::SetNextWindowBgAlpha(0.98f);
     ImGui::Begin("keys", nullptr,
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize);
     const auto row = [](const char* name, const char* help) {

@@ -38,15 +38,42 @@ std::string encode(unsigned int code) {
     return text;
 }
 
+/// A function of a library that is loaded already, or null.
+template <typename Function>
+Function* findLoaded(const char* library, const char* name) {
+    void* handle = dlopen(library, RTLD_LAZY | RTLD_NOLOAD);
+    return handle != nullptr ? reinterpret_cast<Function*>(dlsym(handle, name)) : nullptr;
+}
+
+/// How XErrorEvent of Xlib.h begins, whose macros would change other files.
+struct XErrorStart {
+    int type;
+    void* display;
+    unsigned long resource;
+};
+
 /// Xlib ends the process when its server goes away, even where its handler returns. This handler ends it first, with a
 /// line of this program and the exit code of a lost device. GLFW has loaded the library where it shows windows by X.
 void answerLostDisplay() {
-    using Answer = int (*)(void*);
-    void* library = dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
-    if (library == nullptr) return;
-    const auto set = reinterpret_cast<Answer (*)(Answer)>(dlsym(library, "XSetIOErrorHandler"));
-    if (set == nullptr) return;
-    set([](void*) -> int { endAtOnce("relief: the display of the window is gone\n", int(Failure::device)); });
+    using Handler = int (*)(void*);
+    if (auto* set = findLoaded<Handler(Handler)>("libX11.so.6", "XSetIOErrorHandler"))
+        set([](void*) -> int { endAtOnce("relief: the display of the window is gone\n", int(Failure::device)); });
+}
+
+/// Xlib ends the process also when another program has destroyed the window. Errors about windows of others, such as
+/// one that asked for the clipboard, are none of ours. GLFW takes handlers away: this one is set again and again.
+void answerLostWindow(GLFWwindow* window) {
+    using Handler = int (*)(void*, const XErrorStart*);
+    static const auto idOf = findLoaded<unsigned long(GLFWwindow*)>("libglfw.so.3", "glfwGetX11Window");
+    static const auto set = findLoaded<Handler(Handler)>("libX11.so.6", "XSetErrorHandler");
+    if (idOf == nullptr || set == nullptr) return;
+    static unsigned long own = 0;
+    own = idOf(window);
+    set([](void*, const XErrorStart* error) {
+        if (error->resource == own)
+            endAtOnce("relief: the window was destroyed by another program\n", int(Failure::device));
+        return 0;
+    });
 }
 
 } // namespace
@@ -170,6 +197,7 @@ void Window::setTitle(const std::string& title) { glfwSetWindowTitle(handle_, ti
 void Window::copyText(const std::string& text) { glfwSetClipboardString(handle_, text.c_str()); }
 
 void Window::waitForEvents(double seconds) {
+    answerLostWindow(handle_);
     if (seconds > 0)
         glfwWaitEventsTimeout(seconds);
     else

@@ -55,6 +55,17 @@ WindowManager::WindowManager()
     while (!isReady_) pause();
 }
 
+void WindowManager::destroyWindows() {
+    ::Display* display = XOpenDisplay(nullptr);
+    if (display == nullptr) return;
+    ::Window root = 0, parent = 0, *windows = nullptr;
+    unsigned count = 0;
+    XQueryTree(display, DefaultRootWindow(display), &root, &parent, &windows, &count);
+    for (unsigned i = 0; i < count; ++i) XDestroyWindow(display, windows[i]);
+    XFree(windows);
+    XCloseDisplay(display);
+}
+
 WindowManager::~WindowManager() {
     isEnding_ = true;
     thread_.join();

@@ -15,6 +15,9 @@ public:
     WindowManager(const WindowManager&) = delete;
     WindowManager& operator=(const WindowManager&) = delete;
 
+    /// Destroys all windows of the display, whoever they belong to.
+    static void destroyWindows();
+
 private:
     std::atomic<bool> isReady_ = false, isEnding_ = false;
     std::thread thread_;

@@ -181,13 +181,18 @@ TEST(Window, saysWhyItCannotOpen) {
 TEST(Window, endsWithItsDisplay) {
     RELIEF_DISPLAY;
     const TemporaryFolder folder;
-    Program window({"view", cagePath("torus"), "--size", "96,64", "--play",
-                    writeSession(folder, "session", "rest\nscreenshot " + (folder / "a.png") + "\nwait 100\nclose\n")});
-    for (int i = 0; i < 3000 && !std::filesystem::exists(folder / "a.png"); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    ASSERT_TRUE(std::filesystem::exists(folder / "a.png"));
-    display.stop();
-    expectRefused(window.wait(), Failure::device, {});
+    const std::string picture = folder / "a.png";
+    const std::string session = writeSession(folder, "session", "rest\nscreenshot " + picture + "\nwait 100\nclose\n");
+    const auto endBy = [&](const auto& end) {
+        Program window({"view", cagePath("torus"), "--size", "96,64", "--play", session});
+        for (int i = 0; i < 3000 && !std::filesystem::exists(picture); ++i)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        EXPECT_TRUE(std::filesystem::remove(picture));
+        end();
+        return window.wait();
+    };
+    expectRefused(endBy([] { WindowManager::destroyWindows(); }), Failure::device, {"destroyed"});
+    expectRefused(endBy([&] { display.stop(); }), Failure::device, {"display"});
 }
 
 TEST(Window, recordsWhatItPlays) {

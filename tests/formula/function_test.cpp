@@ -278,6 +278,21 @@ TEST_F(HeightFunctions, areCompiledAgainWhereTheCacheIsDamaged) {
     }
 }
 
+// Pipelines are kept by the number: it is the same for the same text, and of no function once the last one has ended.
+TEST_F(HeightFunctions, areSharedAsLongAsTheyLive) {
+    const FunctionText text{"test.glsl", kHeight};
+    std::uint32_t number = 0;
+    {
+        const std::shared_ptr<const HeightFunction> first = shareHeightFunction(text), same = shareHeightFunction(text);
+        EXPECT_EQ(first, same);
+        EXPECT_NE(first, shareHeightFunction({"other.glsl", kHeight})); // whose messages have another name
+        number = first->number();
+        EXPECT_TRUE(HeightFunction::lives(number));
+    }
+    EXPECT_FALSE(HeightFunction::lives(number));
+    EXPECT_NE(shareHeightFunction(text)->number(), number);
+}
+
 TEST_F(HeightFunctions, areNotKeptWhereThatIsNotWanted) {
     setenv("RELIEF_CACHE", "0", 1);
     EXPECT_EQ(cacheFolder(), "");
