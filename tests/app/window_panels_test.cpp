@@ -19,9 +19,10 @@ struct Session {
         used.insert(widget);
     }
     void pick(const std::string& list, const std::string& word) { click(list), click(list + ": " + word); }
-    /// From the middle of a number to the right, across a third of it.
+    /// From the middle of a number to the right, across a third of it. Before that a while passes: two presses at one
+    /// place are a double click, after which the number is typed.
     void drag(const std::string& widget) {
-        lines += fmt::format("point 0.5 {0}\npress left\npoint 0.8 {0}\nrelease left\n", widget);
+        lines += fmt::format("wait 0.35\npoint 0.5 {0}\npress left\npoint 0.8 {0}\nrelease left\n", widget);
         used.insert(widget);
     }
     void add(const std::string& line) { lines += line + "\n"; }
