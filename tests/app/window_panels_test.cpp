@@ -95,7 +95,7 @@ TEST(WindowPanels, doWhatOptionsDo) {
     session.add("report\nclose");
     const std::vector<nlohmann::json> reports =
         reportsOf(relief({"view", cagePath("torus"), "--height", folder / "waves.png", "--scale", "0.2", "--deform",
-                          "twist(axis=y, angle=40)", "--frames", "0:20", "--size", "540,400", "--edge-pixels", "12",
+                          "twist(axis=y, angle=40)", "--frames", "0:20", "--size", "540,240", "--edge-pixels", "12",
                           "--play", writeSession(folder, "session", session.lines)}));
     ASSERT_EQ(reports.size(), 3u);
 
@@ -159,7 +159,7 @@ TEST(WindowPanels, writeWhatTheirButtonsSay) {
     const std::string options = " --rate 3 --scale 0.01 --height " + folder / "eight.png";
     const std::vector<nlohmann::json> reports =
         reportsOf(shell("cd $IN && RELIEF_CACHE=$IN/cache $RELIEF view " + cagePath("torus") + options +
-                            " --size 400,300 --play $IN/session",
+                            " --size 340,160 --play $IN/session",
                         folder));
     ASSERT_EQ(reports.size(), 3u);
     EXPECT_TRUE(contains(reports[0]["notice"], "copied: relief render")) << reports[0];
