@@ -101,11 +101,12 @@ void makeView(ViewState& state, PanelWishes& wishes) {
     wishes.changesPicture |= changes;
 }
 
-void makeHeights(ViewState& state, PanelWishes& wishes) {
+void makeHeights(ViewState& state, const ViewFacts& facts, PanelWishes& wishes) {
     HeightDesc& height = state.look.scene.object.height;
     if ((height.path.empty() && height.function.empty()) || !section(wishes, "Heights", true)) return;
     bool changes = choose(wishes, "detail", height.detail, kDetails);
-    double scale = height.scale.value_or(1), mid = height.mid.value_or(0);
+    double scale = height.scale.value_or(1);
+    double mid = height.mid.value_or(facts.scene != nullptr ? facts.scene->mid() : 0);
     if (dragNumber(wishes, "scale", scale)) changes = true, height.scale = scale;
     explain("cage units per unit of stored height");
     if (dragNumber(wishes, "midlevel", mid)) changes = true, height.mid = mid;
@@ -278,7 +279,7 @@ PanelWishes makePanels(ViewState& state, const ViewFacts& facts, const ivec2& si
         explain(facts.device.c_str());
         // In the order of the data flow: what is seen, heights, triangles, light, time, and what it cost.
         makeView(state, wishes);
-        makeHeights(state, wishes);
+        makeHeights(state, facts, wishes);
         makeTriangles(state, wishes);
         makeLight(state, wishes);
         makeMotion(state, wishes);

@@ -96,6 +96,7 @@ ShownScene::ShownScene(Device& device, const ViewDesc& desc, Prepared prepared)
     points_ = std::move(prepared.points);
     warnings_ = std::move(prepared.warnings);
     LoadedObject& object = loaded_.object;
+    if (object.height) mid_ = object.height->mid;
 
     // Polygons that are drawn themselves are posed on the host, surfaces on the device.
     if (isMoving() && object.dense && object.animation) {

@@ -50,6 +50,7 @@ public:
 
     [[nodiscard]] const Look& look() const { return look_; } ///< that its files were read for
     [[nodiscard]] const PipelineKey& pipelineKey() const { return key_; }
+    [[nodiscard]] double mid() const { return mid_; } ///< the stored height that displaces nothing
     [[nodiscard]] bool isMoving() const { return !frames_.empty(); }
     [[nodiscard]] const std::vector<int>& frames() const { return frames_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
@@ -78,6 +79,7 @@ private:
     const ViewDesc& desc_;
     Look look_;
     PipelineKey key_;
+    double mid_ = 0;
     LoadedScene loaded_;
     std::vector<int> frames_;
     std::vector<dvec3> points_;

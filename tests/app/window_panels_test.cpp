@@ -121,7 +121,7 @@ TEST(WindowPanels, doWhatOptionsDo) {
     expectAt(last, "--occlusion", {0, 0.5}, 0.1);
     EXPECT_NEAR(std::log2(numberOf(last, "--edge-pixels")), -1 + 7 * 0.4, 7.0 / 16); // from 0.5 to 64
     EXPECT_GT(numberOf(last, "--scale"), 0.25);
-    EXPECT_GT(numberOf(last, "--mid"), 0.001);
+    EXPECT_GT(numberOf(last, "--mid"), 0.55); // from that of unsigned integers, 0.5
     EXPECT_TRUE(optionOf(last, "--light").has_value());
     const std::string deformers = optionOf(last, "--deform").value_or("");
     EXPECT_TRUE(deformers.starts_with("twist(") && !contains(deformers, "angle=40)")) << deformers; // dragged
