@@ -72,6 +72,8 @@ void diceColumns(InsideTile tile, PatchPoints patchPoints) {
     vec2 rates = ratesInside(tile.face);
     vec4 levels = kHasMips ? levelsAt(inputs.rates.firstFaceLevel + tile.face) : vec4(0);
     uint surfaceBoundary = patchPoints.surface.boundary, textureBoundary = patchPoints.texture.boundary;
+    ControlPoints restPoints = inPose(patchPoints.surface, inputs.model.pointsRest);
+    vec3 surfaceOrigin = originOf(patchPoints.surface), restOrigin = hasRest ? originOf(restPoints) : vec3(0);
     for (uint start = 0u; start < size.x;) {
         uint left = size.x - start, width = gl_WorkGroupSize.x;
         while (4u * left < 3u * width) width >>= 1;
@@ -83,9 +85,9 @@ void diceColumns(InsideTile tile, PatchPoints patchPoints) {
         CurveWeights uw = byFaceWeights(atBoundary(curve, (surfaceBoundary & 8u) != 0u, (surfaceBoundary & 2u) != 0u), scale);
         RowSums rows[4], restRows[4];
         TexRowSums texRows[4];
-        [[unroll]] for (uint r = 0u; r < 4u; ++r) rows[r] = sumRow(patchPoints.surface, r, uw);
+        [[unroll]] for (uint r = 0u; r < 4u; ++r) rows[r] = sumRow(patchPoints.surface, r, uw, surfaceOrigin);
         if (hasRest) {
-            [[unroll]] for (uint r = 0u; r < 4u; ++r) restRows[r] = sumRow(inPose(patchPoints.surface, inputs.model.pointsRest), r, uw);
+            [[unroll]] for (uint r = 0u; r < 4u; ++r) restRows[r] = sumRow(restPoints, r, uw, restOrigin);
         }
         if (hasTexture) {
             CurveWeights tw = byFaceWeights(atBoundary(curve, (textureBoundary & 8u) != 0u, (textureBoundary & 2u) != 0u), scale);
@@ -97,8 +99,8 @@ void diceColumns(InsideTile tile, PatchPoints patchPoints) {
             float v = insideCoordinate(first.y + j, segments.y, rates.y), leafV = scale * v - origin.y;
             CurveWeights curve = splineWeights(leafV);
             CurveWeights vw = byFaceWeights(atBoundary(curve, (surfaceBoundary & 1u) != 0u, (surfaceBoundary & 4u) != 0u), scale);
-            PointFrames frames = PointFrames(frameOfRows(rows, vw), kNoFrame, kNoFrame);
-            if (hasRest) frames.rest = frameOfRows(restRows, vw);
+            PointFrames frames = PointFrames(frameOfRows(rows, vw, surfaceOrigin), kNoFrame, kNoFrame);
+            if (hasRest) frames.rest = frameOfRows(restRows, vw, restOrigin);
             if (hasTexture) {
                 CurveWeights tw = byFaceWeights(atBoundary(curve, (textureBoundary & 1u) != 0u, (textureBoundary & 4u) != 0u), scale);
                 frames.texture = texFrameOfRows(texRows, tw);

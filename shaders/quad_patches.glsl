@@ -47,15 +47,19 @@ void regularWeights(vec2 uv, uint boundary, out CurveWeights u, out CurveWeights
     }
 }
 
-// What a row of control points adds up to along u, by the point and two derivatives.
+// What a row of control points adds up to along u, by the point and two derivatives: from the patch's origin, one of
+// its points. On deep levels points lie close together, and second derivatives by the face's (u,v) magnify what sums of
+// whole coordinates round off 4^depth times.
 struct RowSums {
     vec3 x, xu, xuu;
 };
 
-RowSums sumRow(ControlPoints points, uint row, CurveWeights u) {
+vec3 originOf(ControlPoints points) { return RELIEF_POINT(points, RELIEF_POINT_ROW(points, 1u).y); }
+
+RowSums sumRow(ControlPoints points, uint row, CurveWeights u, vec3 origin) {
     uvec4 i = RELIEF_POINT_ROW(points, row);
-    vec3 a = RELIEF_POINT(points, i.x), b = RELIEF_POINT(points, i.y);
-    vec3 c = RELIEF_POINT(points, i.z), d = RELIEF_POINT(points, i.w);
+    vec3 a = RELIEF_POINT(points, i.x) - origin, b = RELIEF_POINT(points, i.y) - origin;
+    vec3 c = RELIEF_POINT(points, i.z) - origin, d = RELIEF_POINT(points, i.w) - origin;
     precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
     precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
     precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
@@ -69,19 +73,25 @@ void addRow(inout LimitFrame f, RowSums sums, CurveWeights v, uint row) {
     f = LimitFrame(p, pu, pv, puu, puv, pvv);
 }
 
-LimitFrame frameOfRows(RowSums rows[4], CurveWeights v) {
+LimitFrame fromOrigin(LimitFrame f, vec3 origin) {
+    precise vec3 p = origin + f.p;
+    return LimitFrame(p, f.pu, f.pv, f.puu, f.puv, f.pvv);
+}
+
+LimitFrame frameOfRows(RowSums rows[4], CurveWeights v, vec3 origin) {
     LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addRow(f, rows[row], v, row);
-    return f;
+    return fromOrigin(f, origin);
 }
 
 // Row by row, without an array of them: SwiftShader compiles arrays in loops for minutes.
 LimitFrame regular(ControlPoints points, vec2 uv) {
     CurveWeights u, v;
     regularWeights(uv, points.boundary, u, v);
+    vec3 origin = originOf(points);
     LimitFrame f = kNoFrame;
-    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addRow(f, sumRow(points, row, u), v, row);
-    return f;
+    RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addRow(f, sumRow(points, row, u, origin), v, row);
+    return fromOrigin(f, origin);
 }
 
 // The frame of the texture coordinates on such a patch: two components, first derivatives; second ones only where the

@@ -14,12 +14,14 @@ struct CheckArgs {
     ObjectDesc object;
     TriangleArgs triangles;
     Output output;
+    const CLI::Option* edgePixels = nullptr; ///< of the command line: whether triangles.options.edgePixels was given
     std::size_t pointCount = 200'000;
     std::string heatmap, device;
 };
 
-constexpr std::size_t kPointsAtOnce = 1u << 18; // keeps the device's buffers below 40 MB
-constexpr int kPictureSide = 1024;              // pixels of the views, by which --edge-pixels are measured
+constexpr std::size_t kPointsAtOnce = 1u << 18;     // keeps the device's buffers below 40 MB
+constexpr int kPictureSide = 1024;                  // pixels of the views, by which --edge-pixels are measured
+constexpr std::uint64_t kMostTriangles = 2'000'000; // where no rate is given; most cages have half as many
 
 /// Azimuth and elevation: along the axes, from both sides.
 constexpr double kViews[][2] = {{0, 0}, {90, 0}, {180, 0}, {270, 0}, {0, 90}, {0, -90}};
@@ -38,10 +40,24 @@ public:
           renderer_(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1}),
           canSeeCracks_(enclosesVolume(object.surface)), points_(computeOutline(object)) {}
 
+    /// Where no rate was given: makes segments longer until a path makes at most kMostTriangles. A face has as many
+    /// segments each way as its longest side, so that faces of poles, long and thin, have hundreds of times too many.
+    void limitTriangles(TriangleOptions& options, const Warn& warn) {
+        if (options.rate || args_.edgePixels->count() > 0) return;
+        const double pixels = options.edgePixels;
+        const auto plan = [&] { return plannedTriangles(model_, options.path, ratesOf(options)); };
+        const std::uint64_t first = plan();
+        for (std::uint64_t count = first; count > kMostTriangles && options.edgePixels < kPictureSide; count = plan())
+            options.edgePixels *= 2;
+        if (options.edgePixels > pixels)
+            warn(fmt::format("checked with --edge-pixels {}: segments of {} pixels would make {} triangles",
+                             options.edgePixels, pixels, first));
+    }
+
     /// `shift`: how far the crack pictures move every other vertex, cage units.
-    PathReport check(Path path, double shift) {
-        RenderOptions options{args_.triangles.options};
-        options.path = path;
+    PathReport check(const TriangleOptions& triangles, double shift) {
+        RenderOptions options{triangles};
+        const Path path = options.path;
         options.lighting.castsShadows = false;
         options.bounds = computeBounds(points_);
         PathReport report{.path = wordOf(kPaths, path), .triangles = checkTriangles(options)};
@@ -50,9 +66,12 @@ public:
     }
 
 private:
+    EdgeRates ratesOf(const TriangleOptions& options) {
+        return rater_.rates(model_, options, viewOf(frameCamera(points_, {}, 1), kPictureSide));
+    }
+
     Watertightness checkTriangles(const TriangleOptions& options) {
-        const View view = viewOf(frameCamera(points_, {}, 1), kPictureSide);
-        const EdgeRates rates = rater_.rates(model_, options, view);
+        const EdgeRates rates = ratesOf(options);
         return checkWatertight(capturer_.capture(model_, options, rates), boundarySegments(model_, rates),
                                plannedTriangles(model_, options.path, rates));
     }
@@ -154,8 +173,12 @@ Certificate certify(const CheckArgs& args, LoadedObject& object) {
     // Moving vertices by 4 % of a face's side opens any crack to a width of some pixels.
     const double shift = 0.04 * std::sqrt(certificate.curvature.area / double(certificate.faceCount));
     PathChecker checker(device, model, object, args);
+    TriangleOptions triangles = args.triangles.options;
+    triangles.path = paths.front();
+    checker.limitTriangles(triangles, makeWarn(args.output.isQuiet));
     for (const Path path : paths) {
-        certificate.paths.push_back(checker.check(path, shift));
+        triangles.path = path;
+        certificate.paths.push_back(checker.check(triangles, shift));
         progress.advance();
     }
     checkValidation(device);
@@ -191,6 +214,7 @@ Run addCheck(CLI::App& app) {
     addTime(app, args->object.motion);
     addPath(app, args->triangles.path, "all that the device can read back");
     addTriangles(app, args->triangles.options);
+    args->edgePixels = app.get_option("--edge-pixels");
     // How closely, and where results go.
     app.add_option("--points", args->pointCount,
                    fmt::format("about how many points are compared with the double-precision reference (default: {})",
@@ -205,6 +229,8 @@ Run addCheck(CLI::App& app) {
     app.footer(
         "Ends with exit code 6 when the triangles are not watertight or points and tangents are not exact. Folds, and\n"
         "heights that differ along the seams of the texture, come from the map: they are reported and change no code.\n"
+        "Without --rate and --edge-pixels segments are longer than 2 pixels where those would make more than 2 million\n"
+        "triangles, as long thin faces do.\n"
         "examples:\n"
         "  relief check cage.obj --height map.exr --scale 0.2\n"
         "  relief check cage.obj --path dice --rate 16 --json\n"

@@ -154,9 +154,11 @@ std::vector<SampleQuery> cornersOf(const Surface& surface);
 /// How far the device's limit normals in corners of faces are from the reference's normals beside them. In the corner
 /// itself, where p_u and p_v may be parallel, device and reference could share a mistake.
 struct CornerReport {
-    std::uint64_t count = 0; ///< corners of 6 degrees and more: at vertices of many faces a surface is nearly a cone
-    /// Degrees between the normal in the corner and that 1/1024 of the face away along the diagonal, less the degrees
-    /// between that and the normal twice as far away.
+    /// Corners of 6 degrees and more, at vertices of up to 24 faces, or 12 between sharp edges: around more a surface
+    /// is nearly a cone.
+    std::uint64_t count = 0;
+    /// Degrees between the normal in the corner and that 1/1024 of the face away along the diagonal, or 2^-28 around
+    /// more than 8 faces, less the degrees between that and the normal twice as far away.
     double max = 0;
     SurfaceLocation worst;
 };

@@ -11,14 +11,21 @@ namespace {
 /// Distance from a corner, as a fraction of the face: within the patch that holds the corner, since normals beside a
 /// vertex of high valence turn fast; not nearer, since OpenSubdiv's tangents of straight corners are 1.5e-5 off.
 constexpr double kBeside = 1.0 / 1024;
+/// The same in exact end caps where normals come to rest slowly: with more than kFewFacesPerWave.
+constexpr double kBesideInCap = 0x1p-28;
+constexpr int kFewFacesPerWave = 8;
+/// Faces per wave (ReferenceSurface::facesPerWave) with which normals at that distance have come to rest.
+constexpr int kMostFacesPerWave = 24;
 
 /// Degrees between `normal` and the reference's normals beside the corner, less the turn of these.
 double turnAtCorner(const ReferenceSurface& reference, const SampleQuery& corner, const dvec3& normal) {
     const dvec2 uv(corner.uv);
     // The sum of both sides' directions: from (0,0) it is (1,1).
     const dvec2 diagonal = dvec2(1) - (reference.sideCount() == 4 ? 2.0 : 3.0) * uv;
-    const dvec3 beside = reference.normal(int(corner.face), uv + kBeside * diagonal);
-    const dvec3 farther = reference.normal(int(corner.face), uv + 2 * kBeside * diagonal);
+    const bool isSlow = reference.facesPerWave(int(corner.face), uv) > kFewFacesPerWave;
+    const double distance = isSlow ? kBesideInCap : kBeside;
+    const dvec3 beside = reference.normal(int(corner.face), uv + distance * diagonal);
+    const dvec3 farther = reference.normal(int(corner.face), uv + 2 * distance * diagonal);
     const double turn = degreesBetween(normal, beside) - degreesBetween(beside, farther);
     return std::isnan(turn) ? std::numeric_limits<double>::infinity() : turn;
 }
@@ -46,7 +53,9 @@ CornerReport reportCorners(const ReferenceSurface& reference, std::span<const Sa
     RELIEF_CHECK(results.size() == queries.size());
     CornerReport report;
     for (std::size_t i = 0; i < queries.size(); ++i) {
-        if (isNarrow(reference.limit(int(queries[i].face), dvec2(queries[i].uv)))) continue;
+        const dvec2 uv(queries[i].uv);
+        const int face = int(queries[i].face);
+        if (isNarrow(reference.limit(face, uv)) || reference.facesPerWave(face, uv) > kMostFacesPerWave) continue;
         ++report.count;
         const double turn = turnAtCorner(reference, queries[i], dvec3(results[i].n));
         if (turn <= report.max) continue;

@@ -112,10 +112,9 @@ MatrixXd ringMatrix(CapPattern pattern) {
     return refinementAround(pattern).topLeftCorner(count, count);
 }
 
-/// The rows of p0 + 2^n (v_n - p0) for n = 1, 2, ..., v_n the vertex after n refinements.
-MatrixXd dartMeans(const CapPattern& pattern) {
+/// The rows of p0 + 2^n (v_n - p0) for n = 1, 2, ..., v_n the vertex after n refinements. `limit`: ringLimit().
+MatrixXd dartMeans(const CapPattern& pattern, const RowVectorXd& limit) {
     const MatrixXd ring = ringMatrix(pattern);
-    const RowVectorXd limit = stationaryRow(ring);
     RowVectorXd away = RowVectorXd::Unit(ring.cols(), 0) - limit;
     MatrixXd rows(pattern.meanCount(), ring.cols());
     for (int i = 0; i < rows.rows(); ++i) {
@@ -176,8 +175,8 @@ RowVectorXd ringLimit(const CapPattern& pattern) {
     return limit;
 }
 
-MatrixXd ringMeans(const CapPattern& pattern) {
-    if (pattern.isDart()) return dartMeans(pattern);
+MatrixXd ringMeans(const CapPattern& pattern, const RowVectorXd& limit) {
+    if (pattern.isDart()) return dartMeans(pattern, limit);
     const int n = pattern.faceCount;
     MatrixXd rows = MatrixXd::Zero(pattern.meanCount(), ringCount(pattern));
     if (pattern.rule == VertexRule::crease)

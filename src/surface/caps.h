@@ -91,8 +91,8 @@ Eigen::RowVectorXd ringLimit(const CapPattern& pattern);
 /// What the rule of a vertex with a window needs of all of its ring, a row per point that sums up to 1: of smooth
 /// vertices the mean of the ends, and of quads the mean of the corners; of creases the mean of the sharp edges' ends;
 /// at darts, where no few means follow from each other, p0 + 2^n (v_n - p0), v_n the vertex after n = 1, 2, ..
-/// refinements.
-Eigen::MatrixXd ringMeans(const CapPattern& pattern);
+/// refinements. `limit`: ringLimit(), which takes long at darts.
+Eigen::MatrixXd ringMeans(const CapPattern& pattern, const Eigen::RowVectorXd& limit);
 
 /// The weights of the ring's points for p_u and p_v at the vertex, to either side of the cap's middle: of smooth
 /// vertices without a dart the eigenvectors of the two largest eigenvalues below 1, of creases those along and across,

@@ -117,9 +117,9 @@ private:
     void addRingSums(EndCap& cap, const CapPattern& pattern, const std::vector<int>& ring, Sums& sums) {
         const auto [mean, isNew] = means_.try_emplace({&sums.all, cap.points[0]}, 0);
         if (isNew) {
-            if (sums.known.emplace(cap.points[0], std::uint32_t(sums.all.size())).second)
-                sums.append(ring, ringLimit(pattern));
-            const Eigen::MatrixXd rows = ringMeans(pattern);
+            const Eigen::RowVectorXd limit = ringLimit(pattern);
+            const Eigen::MatrixXd rows = ringMeans(pattern, limit);
+            if (sums.known.emplace(cap.points[0], std::uint32_t(sums.all.size())).second) sums.append(ring, limit);
             mean->second = sums.first + int(sums.all.size());
             for (const auto& row : rows.rowwise()) sums.append(ring, row);
         }

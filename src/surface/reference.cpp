@@ -258,6 +258,13 @@ bool ReferenceSurface::isApproximate(int face, const dvec2& uv) const {
     return parts_->isCutShort && patches.GetPatchParam(handle).GetDepth() >= parts_->tables.isolation;
 }
 
+int ReferenceSurface::facesPerWave(int face, const dvec2& corner) const {
+    const EndCap* cap = Parts::capOf(parts_->tables.caps.surface, parts_->patchAt(face, corner));
+    if (!cap || !isCorner(parts_->sideCount, corner)) return 0;
+    const CapPattern& pattern = parts_->tables.caps.patterns[cap->pattern]->pattern();
+    return pattern.isClosed && !pattern.hasDart ? pattern.faceCount : 2 * pattern.faceCount;
+}
+
 LimitFrame ReferenceSurface::limit(int face, const dvec2& uv) const {
     const auto& handle = parts_->patchAt(face, uv);
     if (const EndCap* cap = Parts::capOf(parts_->tables.caps.surface, handle)) {

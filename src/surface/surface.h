@@ -30,8 +30,8 @@ struct SurfaceOptions {
     Scheme scheme = Scheme::catmark;
     int isolation = 6; ///< levels of adaptive refinement around features, 0..10
     EndCapKind endCaps = EndCapKind::exact;
-    /// Of these levels, those around extraordinary vertices, 0..isolation: exact end caps need no more than kSeparation.
-    /// With Gregory patches it is not read: all levels are around extraordinary vertices.
+    /// Of these levels, those around extraordinary vertices, 0..isolation: exact end caps need no more than
+    /// kSeparation. With Gregory patches it is not read: all levels are around extraordinary vertices.
     int separation = kSeparation;
 };
 
@@ -162,6 +162,10 @@ public:
     [[nodiscard]] bool isHole(int face) const;
     /// True when (u,v) falls in an end cap at an extraordinary vertex, where the patch only approximates the surface.
     [[nodiscard]] bool isApproximate(int face, const dvec2& uv) const;
+    /// In a corner of an exact end cap the faces that the slowest wave of normals around the vertex takes: all of the
+    /// vertex, or twice as many as lie between two sharp edges or are at a dart; 0 elsewhere. The more they are, the
+    /// nearer to the vertex normals are those of a cone.
+    [[nodiscard]] int facesPerWave(int face, const dvec2& corner) const;
     /// Position and derivatives. Throws Failure::input for a face out of range and for holes, as all evaluations do.
     [[nodiscard]] LimitFrame limit(int face, const dvec2& uv) const;
     /// Texture coordinates; (u,v) itself with the unit Jacobian where the cage has none.

@@ -6,6 +6,7 @@
 #include "device.h"
 #include "meshes.h"
 #include "support.h"
+#include "surface/families.h"
 
 namespace relief::test {
 namespace {
@@ -40,14 +41,12 @@ struct CapErrors {
 };
 
 /// Of a surface and the reference of its cage, moved to `positions`.
-CapErrors errorsAtCorners(const Surface& surface, const Cage& cage, const SurfaceOptions& options,
-                          const std::vector<vec3>& positions) {
-    ReferenceSurface reference(cage, options);
+CapErrors errorsAtCorners(const Surface& surface, ReferenceSurface& reference, const std::vector<vec3>& positions) {
     reference.pose(positions);
     const SurfaceModel model(device(), {.surface = &surface, .cagePositions = positions});
     const std::vector<SampleQuery> queries = queriesAtCorners(surface, 200);
     const std::vector<SampleResult> results = sampler().sample(model, queries, {});
-    const double size = summarize(cage).bounds.longestSide();
+    const double size = computeBounds(positions).longestSide();
     CapErrors errors;
     for (std::size_t i = 0; i < queries.size(); ++i) {
         const SampleResult& r = results[i];
@@ -63,8 +62,10 @@ CapErrors errorsAtCorners(const Surface& surface, const Cage& cage, const Surfac
     return errors;
 }
 
-CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options, const std::vector<vec3>& positions) {
-    return errorsAtCorners(buildSurface(cage, options), cage, options, positions);
+/// Of a cage at rest.
+CapErrors errorsAtCorners(const Cage& cage, const SurfaceOptions& options) {
+    ReferenceSurface reference(cage, options);
+    return errorsAtCorners(buildSurface(cage, options), reference, cage.positions);
 }
 
 class EndCaps : public OnDevice {};
@@ -116,25 +117,80 @@ TEST_F(EndCaps, areExactDownToAMillionthOfAFace) {
         SCOPED_TRACE(named.name);
         for (const Scheme scheme : {Scheme::catmark, Scheme::loop}) {
             if (scheme == Scheme::loop && !named.cage.isAllTriangles()) continue;
-            expectExact(errorsAtCorners(named.cage, {.scheme = scheme, .isolation = 2}, named.cage.positions));
+            expectExact(errorsAtCorners(named.cage, {.scheme = scheme, .isolation = 2}));
         }
     }
 }
 
-// Nothing but the points changes with a pose: tables are those of the cage at rest.
+/// Bends a cage as a whole, by waves of random directions as high as a tenth of its size: single points that go astray
+/// would fold the faces around a vertex of many, and folds have no normals.
+std::vector<vec3> randomPose(const Cage& cage, std::mt19937& random) {
+    std::uniform_real_distribution<float> any(-1, 1);
+    const Bounds bounds = computeBounds(cage.positions);
+    const auto size = float(bounds.longestSide());
+    std::vector<vec3> positions = cage.positions;
+    for (int wave = 0; wave < 3; ++wave) {
+        const vec3 along(any(random), any(random), any(random)), away(any(random), any(random), any(random));
+        const float phase = 3 * any(random);
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            positions[i] += 0.1F * size * std::sin(4 / size * glm::dot(along, cage.positions[i]) + phase) * away;
+    }
+    return positions;
+}
+
+/// The worst of `poseCount` poses: nothing but the points changes with a pose, tables are those of the cage at rest.
+CapErrors errorsInPoses(const Cage& cage, const SurfaceOptions& options, int poseCount, std::mt19937& random) {
+    const Surface surface = buildSurface(cage, options);
+    ReferenceSurface reference(cage, options);
+    CapErrors worst;
+    for (int pose = 0; pose < poseCount; ++pose) {
+        const CapErrors errors = errorsAtCorners(surface, reference, randomPose(cage, random));
+        worst = {std::max(worst.point, errors.point), std::max(worst.tangent, errors.tangent),
+                 std::max(worst.degrees, errors.degrees)};
+    }
+    return worst;
+}
+
 TEST_F(EndCaps, areExactInAnyPose) {
     std::mt19937 random(7);
-    std::uniform_real_distribution<float> away(-0.15F, 0.15F);
     const std::vector<NamedCage> patterns = creasedPoles();
-    const Cage cages[] = {poles(5), poles(70), nGonPrism(3), patterns[0].cage, patterns[3].cage};
-    for (int pose = 0; pose < 10; ++pose) {
-        const Cage& cage = cages[pose % 5];
-        std::vector<vec3> positions = cage.positions;
-        // Around poles of many faces neighbours move alike: folds would not have a normal.
-        const float amount = cage.positions.size() > 100 ? 0.02F : 1;
-        for (vec3& p : positions) p += amount * vec3(away(random), away(random), away(random));
-        SCOPED_TRACE(pose);
-        expectExact(errorsAtCorners(cage, {.isolation = 2}, positions));
+    for (const Cage& cage : {poles(5), poles(70), nGonPrism(3), patterns[0].cage, patterns[3].cage})
+        expectExact(errorsInPoses(cage, {.isolation = 2}, 2, random));
+}
+
+/// Cages of tests, of the repository and of production, with their schemes.
+std::vector<Family> cagesOfAllKinds() {
+    std::vector<Family> cages;
+    const auto add = [&](const std::string& name, const Cage& cage) {
+        cages.push_back({name, cage});
+        if (cage.isAllTriangles()) cages.push_back({name + ", loop", cage, Scheme::loop});
+    };
+    for (const auto& named : {allCages(), creasedPoles(), largeCreasedPoles()})
+        for (const NamedCage& cage : named) add(cage.name, cage.cage);
+    for (int valence = 3; valence <= 64; ++valence) {
+        cages.push_back({fmt::format("poles of {}", valence), poles(valence)});
+        cages.push_back({fmt::format("bipyramid of {}", valence), bipyramid(valence), Scheme::loop});
+    }
+    const char* source = std::getenv("RELIEF_SOURCE");
+    std::vector<std::string> paths;
+    for (const char* name : {"octopus", "lantern", "strawberry"})
+        paths.push_back((source != nullptr ? source : ".") + fmt::format("/meshes/{}.obj", name));
+    if (const std::string folder = productionFolder(); !folder.empty())
+        for (const char* name : {"bigguy", "monsterfrog", "car"})
+            paths.push_back(fmt::format("{}/{}.obj", folder, name));
+    for (const std::string& path : paths) cages.push_back({path, readCage(path)});
+    return cages;
+}
+
+// Takes minutes: run by hand, with --gtest_also_run_disabled_tests. The test above is a sample of it.
+TEST_F(EndCaps, DISABLED_ofAllCagesAreExactInTenPoses) {
+    std::mt19937 random(11);
+    for (const Family& family : cagesOfAllKinds()) {
+        SCOPED_TRACE(family.name);
+        const int isolation = neededIsolation(family.cage, EndCapKind::exact);
+        const CapErrors errors = errorsInPoses(family.cage, {family.scheme, isolation}, 10, random);
+        fmt::print("{}: {:.2g} {:.2g} {:.2g}\n", family.name, errors.point, errors.tangent, errors.degrees);
+        expectExact(errors);
     }
 }
 
@@ -143,6 +199,7 @@ TEST_F(EndCaps, withABrokenTableAreSeen) {
     const Cage cage = poles(5);
     const SurfaceOptions options{.isolation = 2};
     const Surface whole = buildSurface(cage, options);
+    ReferenceSurface reference(cage, options);
     const CapTable table = whole.capTables.at(0);
     const auto levelAt = [&](Surface& surface, int level) {
         return surface.capWeights.begin() + table.firstWeight + std::ptrdiff_t(level - 1) * table.pointCount * 24;
@@ -153,10 +210,10 @@ TEST_F(EndCaps, withABrokenTableAreSeen) {
     for (Patch& patch : turned.patches)
         if (patch.type == kPatchExactQuad) patch.cap ^= 1;
     for (const Surface* surface : {&weight, &power, &turned}) {
-        const CapErrors errors = errorsAtCorners(*surface, cage, options, cage.positions);
+        const CapErrors errors = errorsAtCorners(*surface, reference, cage.positions);
         EXPECT_GT(std::max(errors.point, 0.1 * errors.tangent), 1e-6);
     }
-    expectExact(errorsAtCorners(whole, cage, options, cage.positions));
+    expectExact(errorsAtCorners(whole, reference, cage.positions));
 }
 
 /// The displaced surface as doubles and the height function itself have it.
@@ -225,8 +282,7 @@ TEST_F(EndCaps, haveTheNormalsOfTheDisplacedSurface) {
     cages.push_back({"octopus", readCage((source != nullptr ? source : ".") + std::string("/meshes/octopus.obj"))});
     for (const NamedCage& named : cages) {
         SCOPED_TRACE(named.name);
-        // The car has a whole wave in each face: as steep as the others' waves at a tenth of the height.
-        const NormalErrors errors = normalErrors(named.cage, named.name == "car.obj" ? 0.001 : 0.01, 50);
+        const NormalErrors errors = normalErrors(named.cage, 0.01, 50);
         const double rms = std::sqrt(errors.squares / double(errors.count));
         EXPECT_LE(rms, 0.05);
         EXPECT_LE(errors.worst, 1);

@@ -44,9 +44,18 @@ DeepOracle::DeepOracle(const Cage& cage, Scheme scheme, std::uint32_t vertex)
     if (cage.boundaryRule == BoundaryRule::edgeAndCorner)
         for (const auto& [v, count] : faceCounts)
             if (count == 1) vertexSharpness_[v] = kInfinite;
+    origin_ = restOfVertex();
+    for (RealPoint& p : positions_) p -= origin_;
 }
 
-void DeepOracle::refine() {
+RealPoint DeepOracle::restOfVertex() const {
+    constexpr int kAtRest = 120; // what is left shrinks by 2/3 at least
+    DeepOracle follower = *this;
+    while (follower.level() < kAtRest) follower.refine(1);
+    return follower.positions_[follower.vertex_];
+}
+
+void DeepOracle::refine(int rings) {
     // Who meets whom.
     struct EdgeFaces {
         std::vector<int> faces, opposite;
@@ -179,14 +188,14 @@ void DeepOracle::refine() {
     positions_ = points, faces_ = newFaces, sharpness_ = newSharpness, boundary_ = newBoundary;
     vertexSharpness_ = newVertexSharpness;
     ++level_;
-    keepNear();
+    keepNear(rings);
 }
 
-/// Four rings of faces around the vertex.
-void DeepOracle::keepNear() {
+/// Rings of faces around the vertex.
+void DeepOracle::keepNear(int rings) {
     std::set<int> near{vertex_};
     std::vector<bool> isKept(faces_.size());
-    for (int ring = 0; ring < 5; ++ring) {
+    for (int ring = 0; ring < rings; ++ring) {
         std::set<int> next = near;
         for (std::size_t f = 0; f < faces_.size(); ++f) {
             const auto& v = faces_[f].vertices;
@@ -241,11 +250,11 @@ std::vector<DeepOracle::Sample> DeepOracle::samples() const {
                 };
                 // The uniform cubic B-spline and its derivatives at a knot.
                 const RealPoint w = RealPoint(1, 4, 1) / Real(6), d = kHalf * RealPoint(-1, 0, 1), dd(1, -2, 1);
-                f = {dvec3(sum(w, w)),          dvec3(n * sum(d, w)),     dvec3(n * sum(w, d)),
-                     dvec3(n * n * sum(dd, w)), dvec3(n * n * sum(d, d)), dvec3(n * n * sum(w, dd))};
+                f = {dvec3(origin_ + sum(w, w)), dvec3(n * sum(d, w)),     dvec3(n * sum(w, d)),
+                     dvec3(n * n * sum(dd, w)),  dvec3(n * n * sum(d, d)), dvec3(n * n * sum(w, dd))};
             } else {
                 const RealPoint e = p[1][2], ne = p[2][1], nw = p[2][0], west = p[1][0], sw = p[0][1], se = p[0][2];
-                f.p = dvec3((Real(6) * center + e + ne + nw + west + sw + se) / Real(12));
+                f.p = dvec3(origin_ + (Real(6) * center + e + ne + nw + west + sw + se) / Real(12));
                 f.pu = dvec3(n / 6 * (Real(2) * (e - west) + ne - nw - sw + se));
                 f.pv = dvec3(n / 6 * (Real(2) * (ne - sw) + e + nw - west - se));
             }
@@ -263,7 +272,7 @@ DeepOracle::Sample DeepOracle::vertex() const {
         const int* step = sideCount_ == 4 ? kQuad[at] : kTriangle[at];
         const Place place = face.origin + std::int64_t(face.sign) * Place(step[0], step[1]);
         Sample sample{face.face, dvec2(place) / std::ldexp(1.0, face.depth), {}};
-        sample.frame.p = dvec3(positions_[vertex_]);
+        sample.frame.p = dvec3(origin_);
         return sample;
     }
     return {-1, dvec2(0), {}};

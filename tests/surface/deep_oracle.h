@@ -18,10 +18,11 @@ public:
                   "tolerances of the tests are for more than double precision");
     using RealPoint = glm::vec<3, Real>;
 
-    /// Follows a vertex of the cage.
+    /// Follows a vertex of the cage, whose limit point is where the numbers begin: what points near it are differences
+    /// of is as small as they are, and all their digits count.
     DeepOracle(const Cage& cage, Scheme scheme, std::uint32_t vertex);
 
-    void refine();
+    void refine() { refine(kSampledRings); }
     [[nodiscard]] int level() const { return level_; }
 
     /// A point of the limit surface; of triangles without second derivatives.
@@ -32,7 +33,7 @@ public:
     };
     /// The regular points inside faces near the vertex: some steps of 2^-level away.
     [[nodiscard]] std::vector<Sample> samples() const;
-    /// The vertex itself, as one of its faces has it: only `p`, which is the limit point once it stays.
+    /// The vertex itself, as one of its faces has it: only `p`, its limit point.
     [[nodiscard]] Sample vertex() const;
 
 private:
@@ -46,9 +47,15 @@ private:
     };
     using EdgeKey = std::pair<int, int>;
     static EdgeKey keyOf(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
-    void keepNear();
+    static constexpr int kSampledRings =
+        4; ///< of faces: samples lie on corners of pieces of end caps and in the middle of their sides
+    void refine(int rings);
+    void keepNear(int rings);
+    /// Where the vertex comes to rest, which depends on its own faces alone.
+    [[nodiscard]] RealPoint restOfVertex() const;
 
     int sideCount_, level_ = 0, vertex_;
+    RealPoint origin_{0}; ///< of positions: the vertex's limit point
     std::vector<RealPoint> positions_;
     std::vector<Face> faces_;
     std::map<EdgeKey, Real> sharpness_; ///< of sharp edges; boundary edges are infinitely sharp

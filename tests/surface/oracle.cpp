@@ -1,6 +1,7 @@
 #include "surface/oracle.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -24,6 +25,19 @@ struct Sum {
 };
 
 std::vector<int> asInts(const std::vector<std::uint32_t>& values) { return {values.begin(), values.end()}; }
+
+SchemeOptions optionsOf(const Cage& cage) {
+    SchemeOptions options;
+    options.SetVtxBoundaryInterpolation(cage.boundaryRule == BoundaryRule::none ? SchemeOptions::VTX_BOUNDARY_NONE
+                                        : cage.boundaryRule == BoundaryRule::edgeOnly
+                                            ? SchemeOptions::VTX_BOUNDARY_EDGE_ONLY
+                                            : SchemeOptions::VTX_BOUNDARY_EDGE_AND_CORNER);
+    options.SetFVarLinearInterpolation(SchemeOptions::FVarLinearInterpolation(cage.texBoundaryRule));
+    if (cage.creaseMethod == CreaseMethod::chaikin) options.SetCreasingMethod(SchemeOptions::CREASE_CHAIKIN);
+    return options;
+}
+
+using RefinerFactory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
 
 std::unique_ptr<Far::TopologyRefiner> refinerOf(const Cage& cage, Scheme scheme) {
     const auto sizes = asInts(cage.faceSizes), corners = asInts(cage.corners), creases = asInts(cage.creaseEdges);
@@ -51,18 +65,11 @@ std::unique_ptr<Far::TopologyRefiner> refinerOf(const Cage& cage, Scheme scheme)
     topology.numFVarChannels = cage.texCorners.empty() ? 0 : 1;
     topology.fvarChannels = &channel;
 
-    SchemeOptions options;
-    options.SetVtxBoundaryInterpolation(cage.boundaryRule == BoundaryRule::none ? SchemeOptions::VTX_BOUNDARY_NONE
-                                        : cage.boundaryRule == BoundaryRule::edgeOnly
-                                            ? SchemeOptions::VTX_BOUNDARY_EDGE_ONLY
-                                            : SchemeOptions::VTX_BOUNDARY_EDGE_AND_CORNER);
-    options.SetFVarLinearInterpolation(SchemeOptions::FVarLinearInterpolation(cage.texBoundaryRule));
-    if (cage.creaseMethod == CreaseMethod::chaikin) options.SetCreasingMethod(SchemeOptions::CREASE_CHAIKIN);
     const auto type = scheme == Scheme::loop       ? OpenSubdiv::Sdc::SCHEME_LOOP
                       : scheme == Scheme::bilinear ? OpenSubdiv::Sdc::SCHEME_BILINEAR
                                                    : OpenSubdiv::Sdc::SCHEME_CATMARK;
-    using Factory = Far::TopologyRefinerFactory<Far::TopologyDescriptor>;
-    return std::unique_ptr<Far::TopologyRefiner>(Factory::Create(topology, Factory::Options(type, options)));
+    return std::unique_ptr<Far::TopologyRefiner>(
+        RefinerFactory::Create(topology, RefinerFactory::Options(type, optionsOf(cage))));
 }
 
 /// Limit masks take what is still sharp for infinitely sharp: the levels after which only that is left.
@@ -174,6 +181,65 @@ int Oracle::faceAround(const Grid& grid, int levelIndex, int cageFace, int i, in
     return 0;
 }
 
+/// Where a vertex at the end of one crease comes to rest: OpenSubdiv's limit masks take it for a smooth one and are off
+/// by 1e-3, its rules of refinement do not. The vertex and its faces are a mesh of their own, which they need nothing
+/// beside: after each refinement the new faces around the vertex take their place. `cornersOf(face)`: indices of
+/// values.
+template <typename V, typename CornersOf>
+V Oracle::limitAtDart(int vertex, const std::vector<V>& values, const CornersOf& cornersOf) const {
+    constexpr int kAtRest = 120; // what is left shrinks by 2/3 at least
+    const auto& level = refiner_->GetLevel(refiner_->GetNumLevels() - 1);
+    // The faces, each from the vertex on; the vertex has the number 0.
+    const auto faces = level.GetVertexFaces(vertex);
+    const auto places = level.GetVertexFaceLocalIndices(vertex);
+    std::vector<int> corners, numbers, ring; // numbers: of the level's vertices; ring: of the values
+    std::vector<std::array<int, 2>> creases;
+    for (int f = 0; f < faces.size(); ++f)
+        for (int k = 0; k < sideCount_; ++k) {
+            const int corner = (places[f] + k) % sideCount_, number = level.GetFaceVertices(faces[f])[corner];
+            const auto at = std::ranges::find(numbers, number) - numbers.begin();
+            corners.push_back(int(at));
+            if (at < std::ptrdiff_t(numbers.size())) continue;
+            numbers.push_back(number), ring.push_back(cornersOf(faces[f])[corner]);
+            const int edge = level.FindEdge(vertex, number);
+            if (edge >= 0 && level.IsEdgeInfSharp(edge)) creases.push_back({0, int(at)});
+        }
+    EXPECT_EQ(creases.size(), 1u);
+    const std::vector<int> sizes(std::size_t(faces.size()), sideCount_);
+    const float sharpness = OpenSubdiv::Sdc::Crease::SHARPNESS_INFINITE;
+    Far::TopologyDescriptor topology;
+    topology.numVertices = int(numbers.size());
+    topology.numFaces = faces.size();
+    topology.numVertsPerFace = sizes.data();
+    topology.vertIndicesPerFace = corners.data();
+    topology.numCreases = 1;
+    topology.creaseVertexIndexPairs = creases.front().data();
+    topology.creaseWeights = &sharpness;
+    const std::unique_ptr<Far::TopologyRefiner> refiner(RefinerFactory::Create(
+        topology, RefinerFactory::Options(refiner_->GetSchemeType(), refiner_->GetSchemeOptions())));
+    refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(1));
+
+    // The child of each point of the ring that takes its place.
+    const auto& coarse = refiner->GetLevel(0);
+    std::vector<int> children(numbers.size());
+    for (int f = 0; f < coarse.GetNumFaces(); ++f) {
+        const auto at = coarse.GetFaceVertices(f);
+        for (int k = 1; k < sideCount_; ++k) {
+            const int edge = coarse.FindEdge(0, at[k]);
+            children[at[k]] = edge >= 0 ? coarse.GetEdgeChildVertex(edge) : coarse.GetFaceChildVertex(f);
+        }
+    }
+    children[0] = coarse.GetVertexChildVertex(0);
+    const Far::PrimvarRefinerReal<double> interpolator(*refiner);
+    std::vector<V> points, fine(refiner->GetLevel(1).GetNumVertices());
+    for (const int value : ring) points.push_back(values[value]);
+    for (int i = 0; i < kAtRest; ++i) {
+        interpolator.Interpolate(1, points, fine);
+        for (std::size_t k = 0; k < points.size(); ++k) points[k] = fine[children[k]];
+    }
+    return points[0];
+}
+
 void Oracle::interpolate(const Cage& cage) {
     const Far::PrimvarRefinerReal<double> interpolator(*refiner_);
     std::vector<Sum<dvec3>> points(cage.positions.size());
@@ -191,21 +257,28 @@ void Oracle::interpolate(const Cage& cage) {
     }
     std::vector<Sum<dvec3>> limitPoints(points.size());
     interpolator.Limit(points, limitPoints);
+    const auto& last = refiner_->GetLevel(refiner_->GetNumLevels() - 1);
+    std::vector<int> darts;
+    for (int v = 0; v < last.GetNumVertices(); ++v)
+        if (last.GetVertexRule(v) == OpenSubdiv::Sdc::Crease::RULE_DART) darts.push_back(v);
+    for (const int v : darts)
+        limitPoints[v] = limitAtDart(v, points, [&](int face) { return last.GetFaceVertices(face); });
     for (const auto& point : limitPoints) positions_.push_back(point.value);
     if (values.empty()) return;
     std::vector<Sum<dvec2>> limitValues(values.size());
     interpolator.LimitFaceVarying(values, limitValues);
+    for (const int v : darts) {
+        if (!last.DoesVertexFVarTopologyMatch(v)) continue; // a seam, which masks know
+        const int face = last.GetVertexFaces(v)[0], corner = last.GetVertexFaceLocalIndices(v)[0];
+        limitValues[last.GetFaceFVarValues(face)[corner]] =
+            limitAtDart(v, values, [&](int f) { return last.GetFaceFVarValues(f); });
+    }
     for (const auto& value : limitValues) texCoords_.push_back(value.value);
 }
 
 int Oracle::vertexAt(int face, int i, int j) const {
     const int stride = grids_[face].side / gridSize_; // quads beside n-gons are one level finer
     return grids_[face].at(i * stride, j * stride);
-}
-
-bool Oracle::hasLimit(int face, int i, int j) const {
-    const auto& level = refiner_->GetLevel(refiner_->GetNumLevels() - 1);
-    return level.GetVertexRule(vertexAt(face, i, j)) != OpenSubdiv::Sdc::Crease::RULE_DART;
 }
 
 dvec2 Oracle::texCoord(int face, int i, int j) const {

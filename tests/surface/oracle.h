@@ -19,9 +19,6 @@ public:
 
     /// Limit position of the face's grid point (i,j), i and j in 0..gridSize (i + j <= gridSize for triangles).
     [[nodiscard]] dvec3 position(int face, int i, int j) const { return positions_[vertexAt(face, i, j)]; }
-    /// False at vertices at the end of one crease: OpenSubdiv's limit masks take them for smooth ones, and are off by
-    /// 1e-3.
-    [[nodiscard]] bool hasLimit(int face, int i, int j) const;
     /// Texture coordinates there.
     [[nodiscard]] dvec2 texCoord(int face, int i, int j) const;
     /// Levels of refinement: more than the grid needs where there are n-gons or semi-sharp creases.
@@ -47,6 +44,8 @@ private:
     [[nodiscard]] int faceAround(const Grid& grid, int level, int cageFace, int i, int j) const;
     [[nodiscard]] int vertexAt(int face, int i, int j) const;
     void interpolate(const Cage& cage);
+    template <typename V, typename CornersOf>
+    [[nodiscard]] V limitAtDart(int vertex, const std::vector<V>& values, const CornersOf& cornersOf) const;
 
     int sideCount_, gridSize_;
     std::unique_ptr<Far::TopologyRefiner> refiner_;
