@@ -90,6 +90,7 @@ struct DoctorSubject {
 /// A map and what is wrong with it.
 struct Examination {
     std::string path;
+    Scheme scheme = Scheme::catmark;     ///< of the cage
     HeightMap map;                       ///< in the unit of positions; of vectors their lengths
     std::string vectorOrder, vectorFlip; ///< of a vector map: VectorOptions' order and flip
     double bound = 0;                    ///< largest |h|, cage units
@@ -123,8 +124,8 @@ struct RendererSetting {
     std::string renderer, name, value;
 };
 
-/// What Blender, Arnold and RenderMan need to displace the same cage by the same map to the same surface. Lengths are
-/// in cage units.
+/// What Blender, Arnold and RenderMan need to displace the same cage by the same map to the same surface, or that they
+/// lack the scheme of subdivision. Lengths are in cage units.
 std::vector<RendererSetting> listRendererSettings(const Examination& examination, double unit);
 
 } // namespace relief

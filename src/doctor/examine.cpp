@@ -134,7 +134,7 @@ bool Examination::isHealthy() const {
 }
 
 Examination examineMap(const std::string& path, const DoctorOptions& options, const DoctorSubject& subject) {
-    Examination result{.path = path};
+    Examination result{.path = path, .scheme = subject.surface->scheme};
     if (options.vectors) result.vectorOrder = options.vectors->order, result.vectorFlip = options.vectors->flip;
     const bool isSet = findTilePattern(path).has_value();
     const std::string file = isSet ? listTiles(path).front().path : path;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "doctor/doctor.h"
 
 namespace relief {
@@ -34,7 +36,6 @@ std::vector<RendererSetting> listVectorSettings(const Examination& examination, 
         {"blender", "Vector Displacement node: Scale", scale},
         {"blender", "Material: Displacement", "Displacement and Bump"},
         {"arnold", "image: color_space", "Raw"},
-        {"arnold", "polymesh: subdiv_type", "catclark"},
         {"arnold", fmt::format("image channels for vector_map: order {}", isTangent ? "XZY" : "XYZ"),
          shuffleFor(examination, isTangent ? "xzy" : "xyz", "")},
         {"arnold", "vector_map: tangent_space", isTangent ? "on" : "off"},
@@ -57,9 +58,7 @@ std::vector<RendererSetting> listHeightSettings(const Examination& examination, 
         {"blender", "Displacement node: Midlevel", mid},
         {"blender", "Displacement node: Scale", scale},
         {"blender", "Material: Displacement", "Displacement and Bump"},
-        {"blender", "Subdivision modifier", "Catmull-Clark, adaptive"},
         {"arnold", "image: color_space", "Raw"},
-        {"arnold", "polymesh: subdiv_type", "catclark"},
         {"arnold", "polymesh: disp_zero_value", mid},
         {"arnold", "polymesh: disp_height", scale},
         {"arnold", "polymesh: disp_padding", bound},
@@ -72,6 +71,26 @@ std::vector<RendererSetting> listHeightSettings(const Examination& examination, 
         {"renderman", "PxrDisplace: dispAmount", "1"},
         {"renderman", "Attribute displacementbound: sphere", bound},
     };
+}
+
+/// How the cage is subdivided.
+std::vector<RendererSetting> listSchemeSettings(Scheme scheme) {
+    const char* const none = "none: it has no Loop subdivision";
+    switch (scheme) {
+    case Scheme::catmark:
+        return {{"blender", "Subdivision modifier", "Catmull-Clark, adaptive"},
+                {"arnold", "polymesh: subdiv_type", "catclark"},
+                {"renderman", "SubdivisionMesh: scheme", "catmull-clark"}};
+    case Scheme::loop:
+        return {{"blender", "Subdivision modifier", none},
+                {"arnold", "polymesh: subdiv_type", none},
+                {"renderman", "SubdivisionMesh: scheme", "loop"}};
+    case Scheme::bilinear:
+        return {{"blender", "Subdivision modifier", "Simple, adaptive"},
+                {"arnold", "polymesh: subdiv_type", "linear"},
+                {"renderman", "SubdivisionMesh: scheme", "bilinear"}};
+    }
+    return {};
 }
 
 /// How the files of a set are named, and that a map per face has to become one over texture coordinates.
@@ -98,7 +117,13 @@ void addFiles(const Examination& examination, std::vector<RendererSetting>& sett
 std::vector<RendererSetting> listRendererSettings(const Examination& examination, double unit) {
     std::vector<RendererSetting> settings =
         examination.map.vectors ? listVectorSettings(examination, unit) : listHeightSettings(examination, unit);
+    const std::vector<RendererSetting> scheme = listSchemeSettings(examination.scheme);
+    settings.insert(settings.end(), scheme.begin(), scheme.end());
     addFiles(examination, settings);
+    const auto orderOf = [](const RendererSetting& setting) {
+        return setting.renderer == "blender" ? 0 : setting.renderer == "arnold" ? 1 : 2;
+    };
+    std::ranges::stable_sort(settings, {}, orderOf);
     return settings;
 }
 

@@ -244,6 +244,16 @@ TEST_F(DoctorOnMaps, saysWhatOtherRenderersNeed) {
     EXPECT_EQ(valueOf("renderman", "colorOffset"), "-0.05");
     EXPECT_NEAR(std::stod(valueOf("renderman", "displacementbound")), map.bound, 1e-6);
     EXPECT_EQ(valueOf("arnold", "disp_padding"), valueOf("renderman", "displacementbound"));
+    EXPECT_EQ(valueOf("blender", "Subdivision"), "Catmull-Clark, adaptive");
+
+    // Of the three RenderMan alone has Loop's scheme.
+    Examination loop = map;
+    loop.scheme = Scheme::loop;
+    for (const RendererSetting& setting : listRendererSettings(loop, 1)) {
+        if (setting.name.find("ubdiv") == std::string::npos) continue;
+        const std::string expected = setting.renderer == "renderman" ? "loop" : "none: it has no Loop subdivision";
+        EXPECT_EQ(setting.value, expected) << setting.renderer;
+    }
 }
 
 } // namespace
