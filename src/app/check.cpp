@@ -40,12 +40,19 @@ public:
           renderer_(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1}),
           canSeeCracks_(enclosesVolume(object.surface)), points_(computeOutline(object)) {}
 
-    /// Where no rate was given: makes segments longer until a path makes at most kMostTriangles. A face has as many
+    /// Where no rate was given: makes segments longer until each path makes at most kMostTriangles. A face has as many
     /// segments each way as its longest side, so that faces of poles, long and thin, have hundreds of times too many.
-    void limitTriangles(TriangleOptions& options, const Warn& warn) {
+    void limitTriangles(TriangleOptions& options, const std::vector<Path>& paths, const Warn& warn) {
         if (options.rate || args_.edgePixels->count() > 0) return;
         const double pixels = options.edgePixels;
-        const auto plan = [&] { return plannedTriangles(model_, options.path, ratesOf(options)); };
+        const auto plan = [&] {
+            std::uint64_t most = 0;
+            for (const Path path : paths) {
+                options.path = path;
+                most = std::max(most, plannedTriangles(model_, path, ratesOf(options)));
+            }
+            return most;
+        };
         const std::uint64_t first = plan();
         for (std::uint64_t count = first; count > kMostTriangles && options.edgePixels < kPictureSide; count = plan())
             options.edgePixels *= 2;
@@ -174,8 +181,7 @@ Certificate certify(const CheckArgs& args, LoadedObject& object) {
     const double shift = 0.04 * std::sqrt(certificate.curvature.area / double(certificate.faceCount));
     PathChecker checker(device, model, object, args);
     TriangleOptions triangles = args.triangles.options;
-    triangles.path = paths.front();
-    checker.limitTriangles(triangles, makeWarn(args.output.isQuiet));
+    checker.limitTriangles(triangles, paths, makeWarn(args.output.isQuiet));
     for (const Path path : paths) {
         triangles.path = path;
         certificate.paths.push_back(checker.check(triangles, shift));
@@ -229,7 +235,8 @@ Run addCheck(CLI::App& app) {
     app.footer(
         "Ends with exit code 6 when the triangles are not watertight or points and tangents are not exact. Folds, and\n"
         "heights that differ along the seams of the texture, come from the map: they are reported and change no code.\n"
-        "Without --rate and --edge-pixels segments are longer than 2 pixels where those would make more than 2 million\n"
+        "Without --rate and --edge-pixels segments are longer than 2 pixels where those would make more than 2 "
+        "million\n"
         "triangles, as long thin faces do.\n"
         "examples:\n"
         "  relief check cage.obj --height map.exr --scale 0.2\n"

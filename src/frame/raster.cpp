@@ -95,6 +95,9 @@ void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) c
     const Raster asked = frame.options.raster;
     if (asked == Raster::compute && !obstacle.empty())
         fail(Failure::usage, "the compute rasterizer cannot draw this picture: {}", obstacle);
+    if (frame.isDicedInPieces() && !obstacle.empty())
+        fail(Failure::device, "a surface of {} triangles does not fit into memory as a whole, and not in pieces: {}",
+             frame.stats.triangleCount, obstacle);
     const bool drawsLines = frame.technique.hasLines && !device.traits().hasWireframe;
     const auto choose = [&](const mat4& toClip, uvec2 size) {
         if (asked != Raster::automatic) return asked;

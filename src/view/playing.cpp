@@ -17,7 +17,10 @@ void Viewer::takeEvents(double now) {
         if (event.kind == EventKind::press && hasMoved) return;
         live.pop_front();
         record(event);
-        apply(event);
+        // What the desktop has done to the window is done; it may have changed its mind since.
+        const bool isOfDesktop =
+            event.kind == EventKind::size || event.kind == EventKind::minimise || event.kind == EventKind::restore;
+        if (!isOfDesktop) apply(event);
         uiFrames_ = kFramesAfterEvent;
         hasMoved = hasMoved || event.kind == EventKind::move;
         if (event.kind != EventKind::move && event.kind != EventKind::wheel) return;

@@ -27,7 +27,12 @@ void rehearse(const ViewDesc& desc, const std::string& device, const PipelineKey
     } catch (const Error&) { // there is no room for a second one
         return;
     }
-    measure(*own, prepared);
+    try {
+        measure(*own, prepared);
+    } catch (const Error& error) {
+        if (error.failure != Failure::device) throw;
+        return; // the window's own device may have the room
+    }
     if (keyOf(prepared) == shown || isEnding) return;
     try {
         drawSmallPicture(*own, desc, prepared);
