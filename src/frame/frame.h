@@ -112,7 +112,8 @@ struct RenderOptions : TriangleOptions {
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
     bool countsPipeline = false;        ///< of pictures that the fixed function draws
     /// Of a diced surface in pieces that are samples before the next one is diced, where samples need no mesh any more
-    /// (src/README.md, "The compute rasterizer"); default 2^20.
+    /// (src/README.md, "The compute rasterizer"); default 2^20, or 2^22 where samples
+    /// are numbers of triangles.
     std::optional<std::uint64_t> pieceTriangles;
     std::optional<std::uint32_t> meshTrianglesInFlight; ///< see DeviceTraits; default what suits the device
 };
