@@ -88,8 +88,12 @@ Attributes attributesOf(ScreenVertex a, ScreenVertex b, ScreenVertex c, bool isF
     return all;
 }
 
-// Writes a sample of a triangle at the barycentric coordinates `weights`. The nearest of all that arrive stays; of two at one depth that with
-// the larger number, whichever comes first.
+// The nearest of all that arrive at a sample stays; of two at one depth that with the larger number, whichever comes first.
+void keepNearest(uint at, uint s, uint low, float depth) {
+    atomicMax(Longs(inputs.targets.samples).at[sampleCount() * at + s], packUint2x32(uvec2(low, floatBitsToUint(depth))));
+}
+
+// Writes a sample of a triangle at the barycentric coordinates `weights`.
 void store(ivec2 pixel, uint s, vec3 weights, Attributes all, uint triangle, bool isFront) {
     uint at = uint(pixel.y * push.size.x + pixel.x);
     if (kPass == kPassCracks) {
@@ -104,7 +108,6 @@ void store(ivec2 pixel, uint s, vec3 weights, Attributes all, uint triangle, boo
     }
     uint low = packId(push.firstId + triangle, false, isFront);
     if (!kWritesIds) low = packNormal(weights.x * all.normals[0] + weights.y * all.normals[1] + weights.z * all.normals[2]);
-    uvec2 words = uvec2(low, floatBitsToUint(max(depth, 0.0)));
-    atomicMax(Longs(inputs.targets.samples).at[sampleCount() * at + s], packUint2x32(words));
+    keepNearest(at, s, low, max(depth, 0.0));
 }
 #endif

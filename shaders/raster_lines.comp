@@ -54,11 +54,6 @@ Plane planeOf(vec4 corners[3]) {
     return Plane(kLineBiasUnits * unit + kLineBiasSlope * max(slopes.x, slopes.y), area < 0.0);
 }
 
-void storeLine(ivec2 pixel, uint s, float depth, uint id) {
-    uint at = uint(pixel.y * push.size.x + pixel.x);
-    atomicMax(Longs(inputs.targets.samples).at[sampleCount() * at + s], packUint2x32(uvec2(id, floatBitsToUint(depth))));
-}
-
 // Column after column of pixels, or row after row where a line is steep, and in each the few pixels that the rectangle meets.
 void drawLine(vec4 from, vec4 to, float bias, uint id) {
     vec2 halfSize = 0.5 * vec2(push.size), a = from.xy / from.w * halfSize + halfSize, b = to.xy / to.w * halfSize + halfSize;
@@ -81,7 +76,7 @@ void drawLine(vec4 from, vec4 to, float bias, uint id) {
                 vec2 place = vec2(placeOf(s)) / 256.0, p = vec2(column, row) + (isSteep ? place.yx : place) - a;
                 float t = dot(p, along) / square, side = (along.x * p.y - along.y * p.x) / reach;
                 if (t >= 0.0 && t <= 1.0 && side >= -0.5 && side < 0.5)
-                    storeLine(pixel, s, clamp(mix(depthA, depthB, t) + bias, 0.0, 1.0), id);
+                    keepNearest(uint(pixel.y * push.size.x + pixel.x), s, id, clamp(mix(depthA, depthB, t) + bias, 0.0, 1.0));
             }
         }
     }

@@ -99,8 +99,8 @@ RELIEF_CONSTANT uint kLargeFirst = 5u;          // word: the first one
 RELIEF_CONSTANT uint kMostLargeGroups = 65535u; // that a dispatch may have on every device
 RELIEF_CONSTANT int kLargeTile = 256;           // pixels each way that one of its workgroups fills
 
-// How much nearer lines of triangles are drawn than they lie (--show wireframe): this many of the last place of depths, and this
-// often what a pixel changes the depth by.
+// How much nearer lines of triangles are drawn than they lie (--show wireframe): this many units of the last
+// place of depths, and this many times the change of depth per pixel.
 RELIEF_CONSTANT float kLineBiasUnits = 64.0f;
 RELIEF_CONSTANT float kLineBiasSlope = 2.0f;
 

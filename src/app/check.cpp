@@ -47,9 +47,10 @@ public:
         const double pixels = options.edgePixels;
         const auto plan = [&] {
             std::uint64_t most = 0;
+            TriangleOptions each = options;
             for (const Path path : paths) {
-                options.path = path;
-                most = std::max(most, plannedTriangles(model_, path, ratesOf(options)));
+                each.path = path;
+                most = std::max(most, plannedTriangles(model_, path, ratesOf(each)));
             }
             return most;
         };
@@ -235,9 +236,8 @@ Run addCheck(CLI::App& app) {
     app.footer(
         "Ends with exit code 6 when the triangles are not watertight or points and tangents are not exact. Folds, and\n"
         "heights that differ along the seams of the texture, come from the map: they are reported and change no code.\n"
-        "Without --rate and --edge-pixels segments are longer than 2 pixels where those would make more than 2 "
-        "million\n"
-        "triangles, as long thin faces do.\n"
+        "Without --rate and --edge-pixels segments are longer than 2 pixels where those would make more than\n"
+        "2 million triangles, as long thin faces do.\n"
         "examples:\n"
         "  relief check cage.obj --height map.exr --scale 0.2\n"
         "  relief check cage.obj --path dice --rate 16 --json\n"

@@ -158,7 +158,7 @@ struct CornerReport {
     /// is nearly a cone.
     std::uint64_t count = 0;
     /// Degrees between the normal in the corner and that 1/1024 of the face away along the diagonal, or 2^-28 around
-    /// more than 8 faces, less the degrees between that and the normal twice as far away.
+    /// more than 8 faces (4 between sharp edges), less the degrees between that and the normal twice as far away.
     double max = 0;
     SurfaceLocation worst;
 };

@@ -11,10 +11,10 @@ namespace {
 /// Distance from a corner, as a fraction of the face: within the patch that holds the corner, since normals beside a
 /// vertex of high valence turn fast; not nearer, since OpenSubdiv's tangents of straight corners are 1.5e-5 off.
 constexpr double kBeside = 1.0 / 1024;
-/// The same in exact end caps where normals come to rest slowly: with more than kFewFacesPerWave.
+/// The distance from a corner with more than kFewFacesPerWave faces per wave, where normals converge slowly.
 constexpr double kBesideInCap = 0x1p-28;
 constexpr int kFewFacesPerWave = 8;
-/// Faces per wave (ReferenceSurface::facesPerWave) with which normals at that distance have come to rest.
+/// Faces per wave (ReferenceSurface::facesPerWave) with which normals at that distance have converged.
 constexpr int kMostFacesPerWave = 24;
 
 /// Degrees between `normal` and the reference's normals beside the corner, less the turn of these.

@@ -111,9 +111,8 @@ struct RenderOptions : TriangleOptions {
     std::optional<Camera> rateCamera;   ///< what rates are measured from, for looking at them from elsewhere
     std::optional<Camera> cameraBefore; ///< for motion: the camera of the frame before, where it moves
     bool countsPipeline = false;        ///< of pictures that the fixed function draws
-    /// Of a diced surface in pieces that are samples before the next one is diced, where samples need no mesh any more
-    /// (src/README.md, "The compute rasterizer"); default 2^20, or 2^22 where samples
-    /// are numbers of triangles.
+    /// Triangles per piece of a diced surface, where each piece becomes samples before the next one is diced
+    /// (src/README.md, "The compute rasterizer"). Default: 2^20, or 2^22 where samples name triangles.
     std::optional<std::uint64_t> pieceTriangles;
     std::optional<std::uint32_t> meshTrianglesInFlight; ///< see DeviceTraits; default what suits the device
 };
@@ -125,7 +124,7 @@ struct FrameStats {
     std::uint32_t drawCount = 0, maxRate = 0;
     Raster raster = Raster::hardware; ///< that made the samples
     /// Times of the passes on the device, milliseconds; 0 where it cannot time.
-    /// Of a surface that is diced in pieces all passes over triangles count as color.
+    /// Where a surface is diced in pieces, `colorMs` includes all passes over triangles.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
     double occlusionMs = 0, otherLightsMs = 0; ///< shadows and light of Lighting::others
     double wallMs = 0;                         ///< rates to pixels on the host

@@ -33,7 +33,7 @@ const PendingPipeline& Renderer::Parts::layerPipeline(const Frame& frame, const 
     constants.wantsTexCoords = false;
     constants.hasMotion = drawn.surface != nullptr && drawn.surface->hasMotion();
     constants.readsSampleBuffers = frame.raster == Raster::compute;
-    return computePipeline(
+    return computes.start(
         "layers.comp", constants,
         {.function = drawn.surface != nullptr ? drawn.function() : nullptr, .isTriangles = drawn.isTriangles()});
 }

@@ -74,60 +74,43 @@ const PendingPipeline& Renderer::Parts::drawPipeline(const Frame& frame, const D
     const std::vector<std::uint32_t> constants = constantsOf(frame, drawn, pass).values();
     std::vector<std::uint32_t> key = constants;
     key.insert(key.end(), {std::uint32_t(pass), std::uint32_t(frame.path), drawn.mesh != nullptr, drawn.isTriangles()});
-    const auto found = pipelines.find(key);
-    if (found != pipelines.end()) return found->second;
-
-    std::erase_if(pipelines, [](const auto& each) { return areOfGoneFunction(each.first); });
-
-    // The fixed state follows from the row of the pass.
-    const DrawPassRow& row = rowOf(pass);
-    const bool isPatches = drawn.surface != nullptr && frame.path == Path::tessellation;
-    GraphicsDesc graphics;
-    graphics.name = row.name;
-    graphics.stages = stagesOf(frame, drawn, pass);
-    graphics.constants = constants;
-    graphics.layout = passLayout(device);
-    graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    for (const VkFormat format : row.colors)
-        if (format != VK_FORMAT_UNDEFINED) graphics.colorFormats.push_back(format);
-    if (row.marksInstances && frame.hasInstances()) graphics.colorFormats.push_back(kInstanceFormat);
-    graphics.depthFormat = row.depth;
-    graphics.samples = row.samples;
-    graphics.additiveBlend = row.isAdditive;
-    graphics.polygonMode = row.drawsLines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
-    if (row.drawsLines) graphics.depthBiasUnits = kLineBiasUnits, graphics.depthBiasSlope = kLineBiasSlope;
-    return pipelines[key] = startGraphics(device, std::move(graphics));
-}
-
-const PendingPipeline& Renderer::Parts::computePipeline(const char* file, const ShaderConstants& constants,
-                                                        Variant variant) {
-    const std::vector<std::uint32_t> values = constants.values();
-    std::vector<std::uint32_t> key = values;
-    key.push_back(variant.isTriangles ? 1 : 0);
-    for (const char* letter = file; *letter != 0; ++letter) key.push_back(std::uint32_t(*letter));
-    const auto found = pipelines.find(key);
-    if (found != pipelines.end()) return found->second;
-    std::erase_if(pipelines, [](const auto& each) { return areOfGoneFunction(each.first); });
-    const Stage stage = shaderStage(device, VK_SHADER_STAGE_COMPUTE_BIT, file, variant.function, variant.isTriangles);
-    return pipelines[key] =
-               startCompute(device, {.name = file, .stage = stage, .constants = values, .layout = passLayout(device)});
+    return draws.of(key, [&] {
+        // The fixed state follows from the row of the pass.
+        const DrawPassRow& row = rowOf(pass);
+        const bool isPatches = drawn.surface != nullptr && frame.path == Path::tessellation;
+        GraphicsDesc graphics;
+        graphics.name = row.name;
+        graphics.stages = stagesOf(frame, drawn, pass);
+        graphics.constants = constants;
+        graphics.layout = passLayout(device);
+        graphics.topology = isPatches ? VK_PRIMITIVE_TOPOLOGY_PATCH_LIST : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        for (const VkFormat format : row.colors)
+            if (format != VK_FORMAT_UNDEFINED) graphics.colorFormats.push_back(format);
+        if (row.marksInstances && frame.hasInstances()) graphics.colorFormats.push_back(kInstanceFormat);
+        graphics.depthFormat = row.depth;
+        graphics.samples = row.samples;
+        graphics.additiveBlend = row.isAdditive;
+        graphics.polygonMode = row.drawsLines ? VK_POLYGON_MODE_LINE : VK_POLYGON_MODE_FILL;
+        if (row.drawsLines) graphics.depthBiasUnits = kLineBiasUnits, graphics.depthBiasSlope = kLineBiasSlope;
+        return startGraphics(device, std::move(graphics));
+    });
 }
 
 const PendingPipeline& Renderer::Parts::lightPipeline(const Frame& frame, bool addsLight) {
-    return computePipeline("light.comp", {.show = frame.technique.constant,
-                                          .hasInstances = frame.hasInstances(),
-                                          .readsSampleBuffers = frame.raster == Raster::compute,
-                                          .readsShadowCodes = frame.shadowRaster == Raster::compute,
-                                          .hasSampleColors = frame.writesIds,
-                                          .shading = frame.shading,
-                                          .addsLight = addsLight,
-                                          .hasOcclusion = frame.hasOcclusion()});
+    return computes.start("light.comp", {.show = frame.technique.constant,
+                                         .hasInstances = frame.hasInstances(),
+                                         .readsSampleBuffers = frame.raster == Raster::compute,
+                                         .readsShadowCodes = frame.shadowRaster == Raster::compute,
+                                         .hasSampleColors = frame.writesIds,
+                                         .shading = frame.shading,
+                                         .addsLight = addsLight,
+                                         .hasOcclusion = frame.hasOcclusion()});
 }
 
 const PendingPipeline& Renderer::Parts::occlusionPipeline(const Frame& frame) {
-    return computePipeline("occlusion.comp", {.show = frame.technique.constant,
-                                              .readsSampleBuffers = frame.raster == Raster::compute,
-                                              .hasSampleColors = frame.writesIds});
+    return computes.start("occlusion.comp", {.show = frame.technique.constant,
+                                             .readsSampleBuffers = frame.raster == Raster::compute,
+                                             .hasSampleColors = frame.writesIds});
 }
 
 // --- in advance -----------------------------------------------------------------------------------------------------
@@ -147,7 +130,11 @@ void Renderer::Parts::startPipelines(const Frame& frame) {
     for (const Drawn& drawn : frame.drawn) {
         startPass(drawn, frame.technique.pass, frame.raster);
         if (frame.writesIds) resolvePipeline(frame, drawn);
-        if (frame.technique.hasLines && frame.raster == Raster::hardware) drawPipeline(frame, drawn, DrawPass::lines);
+        if (!frame.technique.hasLines) continue;
+        if (frame.raster == Raster::compute)
+            rasterPipeline("raster_lines.comp", frame, drawn, DrawPass::surface);
+        else
+            drawPipeline(frame, drawn, DrawPass::lines);
     }
     if (frame.hasOcclusion()) occlusionPipeline(frame);
     lightPipeline(frame);

@@ -19,10 +19,9 @@ constexpr std::uint64_t kMostIds = std::uint64_t(1) << 30;
 constexpr const char* kLargeShader = "raster_large.comp";
 constexpr const char* kLineShader = "raster_lines.comp";
 
-/// Triangles of a piece of a diced surface: vertices, their places on the screen and indices of a piece take some 40
-/// MB.
+/// Triangles per piece of a diced surface: vertices, their places on the screen and indices take some 40 MB per piece.
 constexpr std::uint64_t kPieceTriangles = std::uint64_t(1) << 20;
-/// The same where each piece costs one more pass over the samples (resolve()).
+/// Triangles per piece where samples name triangles: resolveMesh() passes over all samples once per piece.
 constexpr std::uint64_t kResolvedPieceTriangles = 4 * kPieceTriangles;
 
 using MeshSize = Dicer::PieceSize;
@@ -69,7 +68,7 @@ std::string Renderer::Parts::obstacleToPicture(const Frame& frame) const {
 std::string Renderer::Parts::obstacleToRaster(const Frame& frame) const {
     std::string obstacle = obstacleToPicture(frame);
     if (!obstacle.empty()) return obstacle;
-    const bool hasIds = frame.writesIds || !frame.options.layers.empty();
+    const bool hasIds = needsIds(frame) || !frame.options.layers.empty();
     if (hasIds && frame.stats.triangleCount >= kMostIds)
         return fmt::format("{} triangles are more than samples can number", frame.stats.triangleCount);
     for (const Drawn& drawn : frame.drawn)
@@ -90,7 +89,6 @@ std::optional<std::uint64_t> Renderer::Parts::pieceTrianglesOf(const Frame& fram
 
 /// The picture and its shadow map each by what suits the size of that many triangles in them.
 void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) const {
-    frame.writesIds = needsIds(frame); // of the compute rasterizer
     const std::string obstacle = obstacleToRaster(frame);
     const Raster asked = frame.options.raster;
     if (asked == Raster::compute && !obstacle.empty())
@@ -113,7 +111,7 @@ void Renderer::Parts::chooseRasters(Frame& frame, std::uint64_t triangleCount) c
         fail(Failure::usage, "{} cannot draw lines of triangles; --show wireframe needs it, or --raster compute",
              device.traits().name);
     if (frame.castsShadows()) frame.shadowRaster = choose(frame.inputs.light.toShadow, uvec2(desc.shadowSide));
-    frame.writesIds = frame.writesIds && frame.raster == Raster::compute;
+    frame.writesIds = frame.raster == Raster::compute && needsIds(frame);
 }
 
 // --- dispatches ------------------------------------------------------------------------------------------
@@ -211,7 +209,7 @@ const PendingPipeline& Renderer::Parts::rasterPipeline(const char* file, const F
         constants.show = frame.technique.constant;
         constants.isPlaced = drawn.inputs.view.normalToWorld != mat3(1);
     }
-    return computePipeline(file, constants);
+    return computes.start(file, constants);
 }
 
 void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame, const Drawn& drawn,
@@ -310,9 +308,9 @@ void Renderer::Parts::dispatchPixels(VkCommandBuffer commands, const Pipeline& p
 const PendingPipeline& Renderer::Parts::resolvePipeline(const Frame& frame, const Drawn& drawn) {
     const ShaderConstants constants = constantsOf(frame, drawn, frame.technique.pass);
     if (frame.technique.pass == DrawPass::errors)
-        return computePipeline("raster_errors.comp", constants,
-                               {.function = drawn.function(), .isTriangles = drawn.isTriangles()});
-    return computePipeline("raster_resolve.comp", constants, {.function = drawn.bendingFunction()});
+        return computes.start("raster_errors.comp", constants,
+                              {.function = drawn.function(), .isTriangles = drawn.isTriangles()});
+    return computes.start("raster_resolve.comp", constants, {.function = drawn.bendingFunction()});
 }
 
 /// Normals and colours of the triangles of a mesh, or of a piece of one, that samples name.
@@ -332,10 +330,10 @@ void Renderer::Parts::resolve(VkCommandBuffer commands, const Frame& frame) {
 /// What layers.comp reads, of the triangles that samples name.
 void Renderer::Parts::resolveLayers(VkCommandBuffer commands, const Frame& frame) {
     for (const Drawn& drawn : frame.drawn) {
-        const Pipeline& pipeline =
-            computePipeline("raster_layers.comp", constantsOf(frame, drawn, DrawPass::layers),
-                            {.function = drawn.bendingFunction(), .isTriangles = drawn.isTriangles()})
-                .get();
+        const Pipeline& pipeline = computes
+                                       .start("raster_layers.comp", constantsOf(frame, drawn, DrawPass::layers),
+                                              {.function = drawn.bendingFunction(), .isTriangles = drawn.isTriangles()})
+                                       .get();
         bind(commands, pipeline, drawn.set);
         dispatchPixels(commands, pipeline, drawn, meshSizeOf(drawn).triangleCount, drawn.firstId);
     }

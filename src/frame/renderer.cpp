@@ -52,7 +52,7 @@ Renderer::Parts::Parts(Device& device, const RendererDesc& desc)
       around(makeSampler(device, {.wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE})),
       nearest(makeSampler(device, clampedSampler(VK_FILTER_NEAREST))),
       smooth(makeSampler(device, clampedSampler(VK_FILTER_LINEAR))), timer(device, 8), counter(device), rater(device),
-      dicer(device) {}
+      dicer(device), computes(device) {}
 
 // --- prepare --------------------------------------------------------------------------------------------------------
 

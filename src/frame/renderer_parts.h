@@ -40,13 +40,14 @@ struct Renderer::Parts {
     PipelineCounter counter;
     EdgeRater rater;
     Dicer dicer;
-    std::map<std::vector<std::uint32_t>, PendingPipeline> pipelines; ///< by everything in which two of them may differ
-    std::map<std::uint32_t, Buffer> grids;                           ///< index buffers of quads by their columns,
-    std::map<std::uint32_t, Buffer> triangleGrids;                   ///< of triangles by their rate
-    std::optional<GpuEnvironment> studio;                            ///< uploaded when first needed
-    std::unique_ptr<BallStudio> ball;                                ///< made when first needed
-    std::optional<GpuMatcap> ownMatcap;                              ///< of the picture's own material and lights
-    std::optional<Texture> shadingTable;                             ///< of `tablePhong`
+    ComputeStages computes;
+    KeptPipelines draws;                           ///< that the fixed function draws with
+    std::map<std::uint32_t, Buffer> grids;         ///< index buffers of quads by their columns,
+    std::map<std::uint32_t, Buffer> triangleGrids; ///< of triangles by their rate
+    std::optional<GpuEnvironment> studio;          ///< uploaded when first needed
+    std::unique_ptr<BallStudio> ball;              ///< made when first needed
+    std::optional<GpuMatcap> ownMatcap;            ///< of the picture's own material and lights
+    std::optional<Texture> shadingTable;           ///< of `tablePhong`
     PhongCoefficients tablePhong;
     Buffer occlusion; ///< two floats per pixel; made when first needed
     std::optional<LayerTargets> layerTargets;
@@ -160,15 +161,6 @@ struct Renderer::Parts {
     void startPipelines(const Frame& frame);
     void startGuessedPipelines(Frame& frame);
     std::vector<Stage> stagesOf(const Frame& frame, const Drawn& drawn, DrawPass pass) const;
-    /// Which of the variants of a shader: with heights by a function, for faces with three sides.
-    struct Variant {
-        const HeightFunction* function = nullptr;
-        bool isTriangles = false;
-    };
-    const PendingPipeline& computePipeline(const char* file, const ShaderConstants& constants, Variant variant);
-    const PendingPipeline& computePipeline(const char* file, const ShaderConstants& constants) {
-        return computePipeline(file, constants, {});
-    }
     const PendingPipeline& lightPipeline(const Frame& frame, bool addsLight = false);
     const PendingPipeline& occlusionPipeline(const Frame& frame);
 

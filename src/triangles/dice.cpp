@@ -237,8 +237,7 @@ DicedMesh Dicer::Parts::dice(const SurfaceModel& model, const EdgeRates& rates, 
                                      options.pieceTriangles.value_or(~std::uint64_t(0)));
     checkMemory(device, byteCountOf(model, work, options), work, options.memory);
     DicedMesh mesh = allocateMesh(device, model, work, options);
-    const bool isWhole = work.pieces.size() == 1 || !options.wantsFaces;
-    RELIEF_CHECK(isWhole);
+    RELIEF_CHECK((work.pieces.size() == 1 || !options.wantsFaces));
     if (options.wantsFaces) mesh.faces = facePushes(table, model, rates, work.runFirsts, work.firstInsides);
 
     // What the shaders read.

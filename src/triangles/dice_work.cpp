@@ -35,7 +35,7 @@ public:
         for (std::uint32_t face = 0; face < model_.faces.size(); ++face) {
             work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
             work_.faceRates.push_back(0);
-            work_.firstInsides.push_back(std::uint32_t(nextVertex()));
+            work_.firstInsides.push_back(0);
             if (model_.faces[face].root != kNoPatch) addFace(face);
         }
         work_.firstTriangles.push_back(std::uint32_t(work_.triangleCount));
@@ -58,8 +58,7 @@ private:
     void sortInsides() {
         const auto others = std::stable_partition(work_.insides.begin(), work_.insides.end(),
                                                   [&](const InsideTile& tile) { return isRegular(tile); });
-        work_.regularCount = std::size_t(others - work_.insides.begin());
-        std::size_t regular = 0, other = work_.regularCount, ring = 0, cell = 0;
+        std::size_t regular = 0, other = std::size_t(others - work_.insides.begin()), ring = 0, cell = 0;
         for (DicePiece& each : work_.pieces) {
             each.regularInsides.first = std::exchange(regular, regular + each.regularInsides.count);
             each.otherInsides.first = std::exchange(other, other + each.otherInsides.count);
@@ -100,6 +99,7 @@ private:
         if (piece().triangleCount > 0 && piece().triangleCount + triangles > pieceTriangles_)
             work_.pieces.emplace_back();
         const auto firstVertex = std::uint32_t(nextVertex());
+        work_.firstInsides.back() = firstVertex;
         const auto sides = std::uint32_t(model_.sideCount);
         const uvec2 lattice = formulas::latticeSegments(sides, f.sides[0], f.sides[1], f.sides[2], f.sides[3]);
         // A face of one segment per side has no lattice: all its triangles are at edges.

@@ -16,21 +16,19 @@ struct DicePiece {
     std::uint64_t insideVertexCount = 0, triangleCount = 0;
 };
 
-/// What one dicing dispatches. Vertices on edges are the same for all pieces;
-/// insides and triangles are numbered anew in each.
+/// What one dicing dispatches. Vertices on edges are the same for all pieces; insides and triangles are numbered anew
+/// per piece.
 struct DiceWork {
-    std::vector<DicePiece> pieces;        ///< one or more
-    std::uint64_t runVertexCount = 0;     ///< on edges and corners
-    std::vector<std::uint32_t> runFirsts; ///< one more at the end: where the insides begin
-    std::vector<InsideTile> insides;      ///< those of regular patches first
-    std::size_t regularCount = 0;
+    std::vector<DicePiece> pieces;            ///< one or more
+    std::uint64_t runVertexCount = 0;         ///< on edges and corners
+    std::vector<std::uint32_t> runFirsts;     ///< one more at the end: where the insides begin
+    std::vector<InsideTile> insides;          ///< those of regular patches first
     std::vector<EdgePiece> edgePieces;        ///< of edges in bicubic patches
     std::vector<std::uint32_t> otherVertices; ///< on corners and edges, neither in pieces nor on smooth edges
     std::vector<TriangleTile> rings, cells;   ///< triangles at edges, triangles between inner samples
     std::vector<std::uint32_t> firstTriangles, faceRates;
-    std::vector<std::uint32_t> firstInsides; ///< vertex of each face
-    std::uint64_t vertexCount = 0, triangleCount = 0,
-                  sampleCount = 0; ///< of all pieces
+    std::vector<std::uint32_t> firstInsides;                           ///< per face, a vertex of its piece
+    std::uint64_t vertexCount = 0, triangleCount = 0, sampleCount = 0; ///< of all pieces
     std::uint32_t maxRate = 0;
 
     /// Vertices and triangles of the largest piece, with those on edges.

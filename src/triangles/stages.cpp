@@ -2,16 +2,23 @@
 
 namespace relief {
 
+const PendingPipeline& ComputeStages::start(const char* file, const ShaderConstants& constants,
+                                            const ShaderVariant& variant) {
+    const std::vector<std::uint32_t> values = constants.values();
+    std::vector<std::uint32_t> key = values;
+    key.push_back(variant.isTriangles ? 1 : 0);
+    for (const char* letter = file; *letter != 0; ++letter) key.push_back(std::uint32_t(*letter));
+    return pipelines_.of(key, [&] {
+        const Stage stage =
+            shaderStage(device_, VK_SHADER_STAGE_COMPUTE_BIT, file, variant.function, variant.isTriangles);
+        return startCompute(device_,
+                            {.name = file, .stage = stage, .constants = values, .layout = passLayout(device_)});
+    });
+}
+
 const PendingPipeline& ComputeStages::start(const char* file, const SurfaceModel& model,
                                             const ShaderConstants& constants) {
-    std::pair<std::string, std::vector<std::uint32_t>> key{file, constants.values()};
-    key.second.push_back(model.isTriangles());
-    const auto found = pipelines_.find(key);
-    if (found != pipelines_.end()) return found->second;
-    std::erase_if(pipelines_, [](const auto& each) { return areOfGoneFunction(each.first.second); });
-    const Stage stage = shaderStage(device_, VK_SHADER_STAGE_COMPUTE_BIT, file, model);
-    return pipelines_[key] = startCompute(
-               device_, {.name = file, .stage = stage, .constants = constants.values(), .layout = passLayout(device_)});
+    return start(file, constants, {.function = model.function.get(), .isTriangles = model.isTriangles()});
 }
 
 } // namespace relief

@@ -30,11 +30,36 @@ private:
     std::vector<Entry> entries_;
 };
 
+/// Pipelines by everything in which two of them may differ: a key begins with ShaderConstants::values().
+class KeptPipelines {
+public:
+    /// That of a key, started by `start()` when it is first asked for. Those of height functions that are gone are
+    /// dropped then.
+    template <typename Start>
+    const PendingPipeline& of(const std::vector<std::uint32_t>& key, const Start& start) {
+        const auto found = pipelines_.find(key);
+        if (found != pipelines_.end()) return found->second;
+        std::erase_if(pipelines_, [](const auto& each) { return areOfGoneFunction(each.first); });
+        return pipelines_[key] = start();
+    }
+
+private:
+    std::map<std::vector<std::uint32_t>, PendingPipeline> pipelines_;
+};
+
+/// Which of the variants of a shader: with heights by a function, for faces with three sides.
+struct ShaderVariant {
+    const HeightFunction* function = nullptr;
+    bool isTriangles = false;
+};
+
 /// Compute pipelines by shader and constants.
 class ComputeStages {
 public:
     explicit ComputeStages(Device& device) : device_(device) {}
     /// Starts to make a pipeline when it is first asked for.
+    const PendingPipeline& start(const char* file, const ShaderConstants& constants, const ShaderVariant& variant = {});
+    /// That of the model's variant.
     const PendingPipeline& start(const char* file, const SurfaceModel& model, const ShaderConstants& constants);
     const Pipeline& pipeline(const char* file, const SurfaceModel& model, const ShaderConstants& constants) {
         return start(file, model, constants).get();
@@ -42,7 +67,7 @@ public:
 
 private:
     Device& device_;
-    std::map<std::pair<std::string, std::vector<std::uint32_t>>, PendingPipeline> pipelines_;
+    KeptPipelines pipelines_;
 };
 
 /// What shaders read of rates: the rates themselves and the mip levels of the height map.

@@ -80,7 +80,7 @@ ViewReport Viewer::run() {
     lastFrameAt_ = playStart_ = secondsNow();
     pacing_.change(lastFrameAt_);
     while (!isDone()) step();
-    window_.hide(); // a shader that is compiled has to be finished
+    window_.hide(); // gone at once for the user, though shaders that are being compiled have to be waited for
     report_.deviceBytes = device_->allocatedBytes();
     if (!device_->validationMessages().empty())
         fail(Failure::internal, "the Vulkan validation layer has {} complaints", device_->validationMessages().size());

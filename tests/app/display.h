@@ -76,6 +76,13 @@ inline void writeWaves(const std::string& path, double periods) {
     writeImage(path, map, SampleType::uint16);
 }
 
+/// Waits until there is such a file, for a minute at most; returns whether there is.
+inline bool waitForFile(const std::string& path) {
+    for (int i = 0; i < 6000 && !std::filesystem::exists(path); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return std::filesystem::exists(path);
+}
+
 inline std::string writeSession(const TemporaryFolder& folder, const std::string& name, const std::string& lines) {
     writeFile(folder / name, lines);
     return folder / name;

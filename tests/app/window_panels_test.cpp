@@ -175,9 +175,7 @@ TEST(WindowPanels, writeWhatTheirButtonsSay) {
     EXPECT_EQ(reports[2]["certificate"], "");
     EXPECT_EQ(readFile(folder / "cache/recent"), cagePath("torus") + "\n" + cagePath("cube") + "\n");
     // The turntable is written by a process of its own, which goes on when the window is closed.
-    for (int i = 0; i < 3000 && !std::filesystem::exists(folder / "turntable-1.mp4"); ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    EXPECT_TRUE(std::filesystem::exists(folder / "turntable-1.mp4"));
+    EXPECT_TRUE(waitForFile(folder / "turntable-1.mp4"));
 }
 
 // A certificate that cannot be had is an error in the words of relief check.

@@ -85,15 +85,11 @@ TEST(Window, readsFilesAnewAndKeepsTheLastGoodOnes) {
         writeSession(folder, "session",
                      "rest\nscreenshot " + (folder / "a.png") + "\nwait 2\nrest\nscreenshot " + (folder / "b.png") +
                          "\nreport\nwait 2\nrest\nscreenshot " + (folder / "c.png") + "\nreport\nclose\n");
-    const auto waitFor = [&](const char* name) {
-        for (int i = 0; i < 3000 && !std::filesystem::exists(folder / name); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    };
     Program window({"view", cagePath("torus"), "--size", "160,120", "--height", folder / "waves.png", "--scale", "0.2",
                     "--play", session});
-    waitFor("a.png");
+    EXPECT_TRUE(waitForFile(folder / "a.png"));
     writeWaves(folder / "waves.png", 5);
-    waitFor("b.png");
+    EXPECT_TRUE(waitForFile(folder / "b.png"));
     writeFile(folder / "waves.png", "half of a picture");
     const std::vector<nlohmann::json> reports = reportsOf(window.wait());
     ASSERT_EQ(reports.size(), 2u);
@@ -185,9 +181,7 @@ TEST(Window, endsWithItsDisplay) {
     const std::string session = writeSession(folder, "session", "rest\nscreenshot " + picture + "\nwait 100\nclose\n");
     const auto endBy = [&](const auto& end) {
         Program window({"view", cagePath("torus"), "--size", "96,64", "--play", session});
-        for (int i = 0; i < 3000 && !std::filesystem::exists(picture); ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        EXPECT_TRUE(std::filesystem::remove(picture));
+        EXPECT_TRUE(waitForFile(picture) && std::filesystem::remove(picture));
         end();
         return window.wait();
     };

@@ -49,7 +49,7 @@ DeepOracle::DeepOracle(const Cage& cage, Scheme scheme, std::uint32_t vertex)
 }
 
 RealPoint DeepOracle::restOfVertex() const {
-    constexpr int kAtRest = 120; // what is left shrinks by 2/3 at least
+    constexpr int kAtRest = 120; // refinements: each multiplies the distance from the limit by 2/3 at most
     DeepOracle follower = *this;
     while (follower.level() < kAtRest) follower.refine(1);
     return follower.positions_[follower.vertex_];

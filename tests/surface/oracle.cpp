@@ -182,12 +182,12 @@ int Oracle::faceAround(const Grid& grid, int levelIndex, int cageFace, int i, in
 }
 
 /// Where a vertex at the end of one crease comes to rest: OpenSubdiv's limit masks take it for a smooth one and are off
-/// by 1e-3, its rules of refinement do not. The vertex and its faces are a mesh of their own, which they need nothing
-/// beside: after each refinement the new faces around the vertex take their place. `cornersOf(face)`: indices of
+/// by 1e-3, its rules of refinement do not. The limit depends on the vertex and its faces alone, which are made a mesh
+/// of their own: after each refinement the new faces around the vertex take their place. `cornersOf(face)`: indices of
 /// values.
 template <typename V, typename CornersOf>
 V Oracle::limitAtDart(int vertex, const std::vector<V>& values, const CornersOf& cornersOf) const {
-    constexpr int kAtRest = 120; // what is left shrinks by 2/3 at least
+    constexpr int kAtRest = 120; // refinements: each multiplies the distance from the limit by 2/3 at most
     const auto& level = refiner_->GetLevel(refiner_->GetNumLevels() - 1);
     // The faces, each from the vertex on; the vertex has the number 0.
     const auto faces = level.GetVertexFaces(vertex);
