@@ -70,6 +70,17 @@ uint isOutside(ivec3 e) { return uint(e.x | e.y | e.z) >> 31; }
 
 int biasOf(ivec2 edge) { return edge.y < 0 || (edge.y == 0 && edge.x > 0) ? 0 : -1; }
 
+// The first and the last of the columns 0 to `last` that may have samples inside of three edges, of which `most` are the largest E at
+// the left side of column 0 in the rows that are asked for. E falls by dy to the right.
+ivec2 columnsBetween(vec3 most, ivec3 dy, int last) {
+    vec3 at = most / vec3(dy); // where E is 0
+    float width = 256.0 * float(last + 1);
+    vec3 lows = mix(vec3(0), at, lessThan(dy, ivec3(0))), highs = mix(vec3(width), at, greaterThan(dy, ivec3(0)));
+    float low = clamp(max(lows.x, max(lows.y, lows.z)), 0.0, 2.0 * width), high = clamp(min(highs.x, min(highs.y, highs.z)), -width, width);
+    // One more to each side than floats are precise to.
+    return ivec2(max((int(low) - 1 + 255 - lastPlace()) >> 8, 0), min((int(high) + 1 - firstPlace()) >> 8, last));
+}
+
 // What a triangle's corners are interpolated with: the depth, and normals divided by w, whose sums have the direction of the
 // perspective-correct normal.
 struct Attributes {

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "raster.glsl"
 
-// Triangles that raster_triangles.comp has listed: large ones, and those that have corners behind the eye or far aside. One
+// Triangles that raster_triangles.comp has listed: those that cover much, and those that have corners behind the eye or far aside. One
 // workgroup per triangle and tile of the picture; its invocations share the pixels of the tile. Edges are 64-bit numbers.
 layout(local_size_x_id = kIdGroupSize) in;
 
@@ -52,6 +52,8 @@ void cutBy(uint plane) {
     for (uint i = 0u; i < count; ++i) corners[i] = kept[i];
 }
 
+const int kMostAcross = 8; // pixels of a row that invocations share
+
 // --- pixels -----------------------------------------------------------------------------------------------------------
 
 ScreenVertex screenCorner(uint i) {
@@ -63,6 +65,19 @@ ScreenVertex screenCorner(uint i) {
 // E of the edge a -> b at p, without the bias.
 int64_t edgeAt(ivec2 a, ivec2 b, ivec2 p) {
     return int64_t(b.x - a.x) * int64_t(p.y - a.y) - int64_t(b.y - a.y) * int64_t(p.x - a.x);
+}
+
+// The larger E of two places.
+float mostAt(ivec2 a, ivec2 b, ivec2 p, ivec2 q) { return float(max(edgeAt(a, b, p), edgeAt(a, b, q))); }
+
+void drawPixel(ScreenVertex a, ScreenVertex b, ScreenVertex c, ivec3 bias, float perArea, Attributes all, ivec2 pixel, uint triangle,
+               bool isFront) {
+    for (uint s = 0u; s < sampleCount(); ++s) {
+        ivec2 p = 256 * pixel + placeOf(s);
+        int64_t ea = edgeAt(b.p, c.p, p), eb = edgeAt(c.p, a.p, p), ec = edgeAt(a.p, b.p, p);
+        if (ea + int64_t(bias.x) < 0l || eb + int64_t(bias.y) < 0l || ec + int64_t(bias.z) < 0l) continue;
+        store(pixel, s, vec3(float(ea), float(eb), float(ec)) * perArea, all, triangle, isFront);
+    }
 }
 
 void drawInTile(ScreenVertex a, ScreenVertex b, ScreenVertex c, uint triangle, ivec2 tileFirst, ivec2 tileLast) {
@@ -82,14 +97,17 @@ void drawInTile(ScreenVertex a, ScreenVertex b, ScreenVertex c, uint triangle, i
     ivec2 last = min((max(a.p, max(b.p, c.p)) - firstPlace()) >> 8, tileLast);
     ivec2 size = last - first + 1;
     if (size.x <= 0 || size.y <= 0) return;
-    for (int k = int(gl_LocalInvocationID.x); k < size.x * size.y; k += int(gl_WorkGroupSize.x)) {
-        ivec2 pixel = first + ivec2(k % size.x, k / size.x);
-        for (uint s = 0u; s < sampleCount(); ++s) {
-            ivec2 p = 256 * pixel + placeOf(s);
-            int64_t ea = edgeAt(b.p, c.p, p), eb = edgeAt(c.p, a.p, p), ec = edgeAt(a.p, b.p, p);
-            if (ea + int64_t(bias.x) < 0l || eb + int64_t(bias.y) < 0l || ec + int64_t(bias.z) < 0l) continue;
-            store(pixel, s, vec3(float(ea), float(eb), float(ec)) * perArea, all, triangle, isFront);
-        }
+    // As many rows at once as there are invocations for, and of these the columns between the edges.
+    int across = min(kMostAcross, int(gl_WorkGroupSize.x)), rows = int(gl_WorkGroupSize.x) / across;
+    ivec2 own = ivec2(int(gl_LocalInvocationID.x) % across, int(gl_LocalInvocationID.x) / across);
+    ivec3 dy = ivec3(c.p.y - b.p.y, a.p.y - c.p.y, b.p.y - a.p.y);
+    for (int row = first.y; row <= last.y; row += rows) {
+        ivec2 above = 256 * ivec2(first.x, row) + ivec2(0, firstPlace());
+        ivec2 below = 256 * ivec2(first.x, row + rows - 1) + ivec2(0, lastPlace());
+        vec3 most = vec3(mostAt(b.p, c.p, above, below), mostAt(c.p, a.p, above, below), mostAt(a.p, b.p, above, below));
+        ivec2 columns = columnsBetween(most, dy, last.x - first.x);
+        for (ivec2 pixel = ivec2(first.x + columns.x, row) + own; pixel.x <= first.x + columns.y; pixel.x += across)
+            if (pixel.y <= last.y) drawPixel(a, b, c, bias, perArea, all, pixel, triangle, isFront);
     }
 }
 
@@ -104,9 +122,9 @@ void main() {
     uint tilesAcross = uint(push.size.x + kLargeTile - 1) / uint(kLargeTile);
     ivec2 first = kLargeTile * ivec2(gl_WorkGroupID.y % tilesAcross, gl_WorkGroupID.y / tilesAcross);
     ivec2 last = min(first + kLargeTile, push.size) - 1;
-    uint count = inputs.targets.largeTriangles.at[kLargeCount];
+    uint count = inputs.targets.listedTriangles.at[kLargeList + kListCount];
     for (uint i = gl_WorkGroupID.x; i < count; i += gl_NumWorkGroups.x) {
-        uint triangle = inputs.targets.largeTriangles.at[kLargeFirst + i];
+        uint triangle = inputs.targets.listedTriangles.at[kListFirst + i];
         uint vertices[3];
         for (uint k = 0u; k < 3u; ++k) vertices[k] = meshIndex(3u * triangle + k);
         if (isApart(vertices, first, last)) continue;

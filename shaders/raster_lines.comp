@@ -34,11 +34,20 @@ struct Plane {
     bool isFront;
 };
 
+// Where the picture's middle is moved to for numbers of a triangle: its corner farthest in front of the eye, which is the one whose
+// x / w and y / w are the most precise. Others may lie behind the eye, or beside it at any distance.
+vec2 originOf(vec4 corners[3]) {
+    vec4 farthest = corners[0];
+    for (uint i = 1u; i < 3u; ++i)
+        if (corners[i].w > farthest.w) farthest = corners[i];
+    return farthest.w > 0.0 ? farthest.xy / farthest.w : vec2(0); // else nothing is seen of it
+}
+
 // Depth is linear in x and y of the screen: the numbers (A, B, C) with z = A x + B y + C w at all corners, in homogeneous
 // coordinates, of which A and B are its slopes, are the corners' z times the inverse of their matrix. The corners are moved so that
 // one of them is the origin, which keeps small triangles precise.
 Plane planeOf(vec4 corners[3]) {
-    vec2 origin = corners[0].w != 0.0 ? corners[0].xy / corners[0].w : vec2(0);
+    vec2 origin = originOf(corners);
     vec3 rows[3];
     float nearest = 0.0;
     for (uint i = 0u; i < 3u; ++i) {

@@ -118,7 +118,7 @@ struct Targets {
     RELIEF_ADDRESS(Words) sampleInstances;  // as kBindSampleInstances
     RELIEF_ADDRESS(Words) shadow;           // as kBindShadowCodes
     RELIEF_ADDRESS(Words) crossings;        // kPassCracks: front faces less back faces per pixel
-    RELIEF_ADDRESS(Words) largeTriangles;   // kLarge...
+    RELIEF_ADDRESS(Words) listedTriangles;  // k...List
     RELIEF_ADDRESS(Floats) occlusion;       // occlusion.comp: the share of the environment that arrives, per pixel
 };
 

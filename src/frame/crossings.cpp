@@ -54,13 +54,14 @@ std::vector<int> Renderer::Parts::crossingsInCompute(Frame& frame) {
     std::vector<int> crossings(std::size_t(desc.width) * std::size_t(desc.height));
     const Buffer sums = makeBuffer(device, {.name = "crossings", .bytes = crossings.size() * 4, .usage = usage});
     for (Drawn& drawn : frame.drawn) drawn.inputs.targets.crossings = sums.address;
-    const bool drewLarge = std::exchange(drawsLarge, true); // this pass is not drawn again
+    // This pass is not drawn again.
+    const ListedTriangles drew = std::exchange(drawsListed, {.thin = true, .large = true});
     makeSets(frame, DrawPass::cracks);
     device.submitAndWait([&](VkCommandBuffer commands) {
         writeInputs(commands, frame);
         rasterize(commands, frame, {DrawPass::cracks, sums, size()});
     });
-    drawsLarge = drewLarge;
+    drawsListed = drew;
     downloadBytes(device, sums, std::as_writable_bytes(std::span(crossings)));
     return crossings;
 }

@@ -32,7 +32,7 @@ struct SampleBuffers {
     TexelBuffer colors;    ///< four normals and colours per pixel; made when a picture first has ids
     TexelBuffer instances; ///< four per pixel; made when a picture first has several
     TexelBuffer screen;    ///< vertices of the largest mesh so far
-    Buffer large;          ///< triangles for raster_large.comp: as many as the largest mesh so far has
+    Buffer listed;         ///< triangles that are not small: room for as many as the largest mesh so far has
 };
 
 SampleBuffers makeSampleBuffers(Device& device, const RendererDesc& desc);

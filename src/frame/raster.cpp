@@ -11,12 +11,13 @@ namespace {
 /// Below this area the compute rasterizer is faster than the fixed function, in pixels (src/README.md, "Devices").
 constexpr double kMostPixelsPerTriangle = 10;
 
-constexpr std::uint32_t kRasterGroup = 64;
+constexpr std::uint32_t kRasterGroup = kThinGroup;
 
 /// Numbers of triangles that samples can hold: packId() of shaders/raster_samples.glsl.
 constexpr std::uint64_t kMostIds = std::uint64_t(1) << 30;
 
 constexpr const char* kLargeShader = "raster_large.comp";
+constexpr const char* kThinShader = "raster_thin.comp";
 constexpr const char* kLineShader = "raster_lines.comp";
 
 /// Triangles per piece of a diced surface: vertices, their places on the screen and indices take some 40 MB per piece.
@@ -142,7 +143,7 @@ void Renderer::Parts::useBuffers(Frame& frame) {
         drawn.inputs.targets.screen = buffers->screen.buffer.address;
         drawn.inputs.targets.samples = buffers->samples.buffer.address;
         drawn.inputs.targets.shadow = buffers->shadow.buffer.address;
-        drawn.inputs.targets.largeTriangles = buffers->large.address;
+        drawn.inputs.targets.listedTriangles = buffers->listed.address;
     }
     frame.bindings[kBindSamples] = buffers->samples.binding();
     frame.bindings[kBindShadowCodes] = buffers->shadow.binding();
@@ -175,7 +176,8 @@ void Renderer::Parts::useSampleTables(Frame& frame, bool writesColors) {
     }
 }
 
-/// Vertices on the screen and the list of large triangles: for one instance after another, so that the largest decides.
+/// Vertices on the screen and the lists of triangles that are not small: for one instance after another, so that the
+/// largest decides.
 void Renderer::Parts::makeMeshBuffers(const Frame& frame) {
     MeshSize largest{0, 0};
     for (const Drawn& drawn : frame.drawn) {
@@ -184,14 +186,14 @@ void Renderer::Parts::makeMeshBuffers(const Frame& frame) {
         largest.triangleCount = std::max(largest.triangleCount, mesh.triangleCount);
     }
     const std::uint64_t screenBytes = std::uint64_t(largest.vertexCount) * 16;
-    const std::uint64_t largeBytes = (std::uint64_t(largest.triangleCount) + kLargeFirst) * 4;
+    const std::uint64_t listedBytes = (std::uint64_t(largest.triangleCount) + kListFirst) * 4;
     if (buffers->screen.buffer.bytes < screenBytes)
         buffers->screen =
             makeTexels(device, {.name = "vertices on the screen", .bytes = screenBytes}, VK_FORMAT_R32G32B32A32_UINT);
-    if (buffers->large.bytes < largeBytes)
-        buffers->large =
-            makeBuffer(device, {.name = "large triangles",
-                                .bytes = largeBytes,
+    if (buffers->listed.bytes < listedBytes)
+        buffers->listed =
+            makeBuffer(device, {.name = "listed triangles",
+                                .bytes = listedBytes,
                                 .usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT});
 }
@@ -229,19 +231,25 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
         }
         barrier(commands);
     };
-    // No large triangles yet; as many tiles as the picture has.
+    // Nothing is listed yet. Large triangles have a workgroup per tile of the picture.
     const uvec2 tiles = (target.size + uvec2(kLargeTile - 1)) / uvec2(kLargeTile);
-    const std::uint32_t none[] = {0, tiles.x * tiles.y, 1, 0};
-    vkCmdUpdateBuffer(commands, buffers->large.handle.get(), 0, sizeof(none), none);
+    const VkBuffer lists = buffers->listed.handle.get();
+    const std::uint32_t noLarge[] = {0, tiles.x * tiles.y, 1, 0}, noThin[] = {0, 1, 1, 0};
+    vkCmdUpdateBuffer(commands, lists, kLargeList * 4, sizeof(noLarge), noLarge);
+    vkCmdUpdateBuffer(commands, lists, kThinList * 4, sizeof(noThin), noThin);
     dispatch("raster_vertices.comp", mesh.vertexCount);
     dispatch("raster_triangles.comp", mesh.triangleCount);
     if (target.pass == DrawPass::surface && frame.technique.hasLines) dispatch(kLineShader, mesh.triangleCount);
-    if (!drawsLarge) return;
-    const Pipeline& large = rasterPipeline(kLargeShader, frame, drawn, target.pass).get();
-    bind(commands, large, drawn.set);
-    pushConstants(commands, large, block);
-    vkCmdDispatchIndirect(commands, buffers->large.handle.get(), 0);
-    barrier(commands);
+    const auto dispatchList = [&](const char* file, std::uint32_t list) {
+        const Pipeline& pipeline = rasterPipeline(file, frame, drawn, target.pass).get();
+        bind(commands, pipeline, drawn.set);
+        pushConstants(commands, pipeline, block);
+        vkCmdDispatchIndirect(commands, lists, list * 4);
+        barrier(commands);
+    };
+    block.count = mesh.triangleCount;
+    if (drawsListed.thin) dispatchList(kThinShader, kThinList);
+    if (drawsListed.large) dispatchList(kLargeShader, kLargeList);
 }
 
 void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, std::span<const RasterTarget> targets) {
@@ -276,20 +284,23 @@ void Renderer::Parts::submit(Frame& frame) {
         device.submitAndWait(recordPicture);
 }
 
-/// Records and submits what the compute rasterizer draws. The shader for large triangles takes long to compile and few
-/// pictures need it: it is left out until a picture has some, which is then drawn again.
+/// Records and submits what the compute rasterizer draws. The shaders for listed triangles take long to compile and few
+/// pictures need them: each is left out until a picture has some, which is then drawn again.
 void Renderer::Parts::submitRastered(const std::function<void(VkCommandBuffer)>& record) {
-    const Download seen(device, (kLargeSeen + 1) * 4);
+    const Download heads(device, kListFirst * 4);
     for (;;) {
         device.submitAndWait([&](VkCommandBuffer commands) {
-            vkCmdFillBuffer(commands, buffers->large.handle.get(), kLargeSeen * 4, 4, 0);
+            for (const std::uint32_t list : {kThinList, kLargeList})
+                vkCmdFillBuffer(commands, buffers->listed.handle.get(), (list + kListSeen) * 4, 4, 0);
             record(commands);
-            seen.record(commands, buffers->large);
+            heads.record(commands, buffers->listed);
         });
-        std::uint32_t words[kLargeSeen + 1];
-        std::memcpy(words, seen.bytes().data(), sizeof(words));
-        if (drawsLarge || words[kLargeSeen] == 0) return;
-        drawsLarge = true;
+        std::uint32_t words[kListFirst];
+        std::memcpy(words, heads.bytes().data(), sizeof(words));
+        const ListedTriangles seen{.thin = words[kThinList + kListSeen] != 0,
+                                   .large = words[kLargeList + kListSeen] != 0};
+        if (drawsListed.thin >= seen.thin && drawsListed.large >= seen.large) return;
+        drawsListed = {.thin = drawsListed.thin || seen.thin, .large = drawsListed.large || seen.large};
     }
 }
 

@@ -20,6 +20,11 @@ struct BallStudio {
     Image draw(const Material& material, Lighting lighting, const dvec3& back);
 };
 
+/// Triangles that the compute rasterizer has shaders of their own for: raster_thin.comp, raster_large.comp.
+struct ListedTriangles {
+    bool thin = false, large = false;
+};
+
 struct Renderer::Parts {
     using SamplerKey = std::tuple<Filter, float, Wrap>;
 
@@ -31,7 +36,7 @@ struct Renderer::Parts {
     std::optional<SampleImages> images; ///< these and the others are made when a picture first needs them
     std::optional<Texture> shadow;
     std::optional<SampleBuffers> buffers;
-    bool drawsLarge = false; ///< compute rasterizer: a picture so far had triangles for raster_large.comp
+    ListedTriangles drawsListed; ///< that a picture so far had
     PassResources resources;
     std::vector<Buffer> inputBuffers; ///< one per instance, and one for the passes over pixels
     Owned<VkSampler> around, nearest, smooth;

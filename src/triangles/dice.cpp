@@ -19,10 +19,12 @@ void checkMemory(const Device& device, std::uint64_t bytes, const DiceWork& work
         fail(Failure::device, "dicing makes {} triangles, more than 32 bits can number: lower the rate",
              work.triangleCount);
     const std::uint64_t limit = allowed.value_or(device.traits().heapBytes / 2);
+    const std::string whole =
+        work.pieces.size() > 1 ? fmt::format(" at a time, of {} triangles in all", work.triangleCount) : "";
     if (bytes > limit)
         fail(Failure::device,
-             "dicing makes {} vertices and {} triangles, {}; {} are allowed: lower the rate or raise --memory",
-             work.vertexCount, work.triangleCount, humanBytes(bytes), humanBytes(limit));
+             "dicing makes {} vertices and {} triangles{}, {}; {} are allowed: lower the rate or raise --memory",
+             work.mostVertices(), work.mostTriangles(), whole, humanBytes(bytes), humanBytes(limit));
     const std::uint64_t mostVertices = largestTable(device, 16) / kVertexBytes;
     if (work.mostVertices() > mostVertices)
         fail(Failure::device, "dicing makes {} vertices; this device reads {} at most: lower the rate",

@@ -79,7 +79,8 @@ void addTriangle(Place a, Place b, Place c, std::vector<int>& sums) {
         }
 }
 
-/// Places of random triangles: pixel-sized ones, slivers, large ones, and ones with corners at centres of pixels.
+/// Places of random triangles: pixel-sized ones, slivers, needles, large ones, and ones with corners at centres of
+/// pixels.
 std::vector<ivec2> randomPlaces(int triangleCount, std::mt19937& random) {
     const auto within = [&](int low, int high) { return std::uniform_int_distribution(low, high)(random); };
     std::vector<ivec2> places;
@@ -87,9 +88,16 @@ std::vector<ivec2> randomPlaces(int triangleCount, std::mt19937& random) {
         const ivec2 middle(within(-4000, kSubpixels * kRasterSide + 4000),
                            within(-4000, kSubpixels * kRasterSide + 4000));
         const int kind = t % 8, size = kind == 0 && t % 256 == 0 ? 100000 : kind == 1 ? 5000 : 400;
+        // Long and thin, in any direction; one in eight longer than 32 bits hold the products of.
+        const auto needle = [&](int k) {
+            const int length = t % 512 == 5 ? 60000 : 16000;
+            return k == 0 ? middle : middle + ivec2(within(-length, length), within(-length, length));
+        };
         for (int k = 0; k < 3; ++k) {
             ivec2 place = middle + ivec2(within(-size, size), within(-size, size));
             if (kind == 2) place.y = middle.y + place.y % 3; // a sliver
+            if (kind == 5 && t % 64 == 5)
+                place = k < 2 ? needle(k) : places.back() + ivec2(within(-300, 300), within(-300, 300));
             if (kind == 3) place = place / kSubpixels * kSubpixels + kSubpixels / 2;
             if (kind == 4 && k > 0) place = places.back() + ivec2(within(-1, 1), within(-1, 1));
             places.push_back(place);
@@ -390,6 +398,31 @@ TEST_F(Raster, drawsASurfaceInPieces) {
         expectSameInPieces(std::span(&plain, 1), show);
 }
 
+/// What does not fit is the largest piece.
+TEST_F(Raster, saysHowLargeAPieceIsThatMemoryDoesNotHold) {
+    RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
+    const std::uint64_t triangleCount = rasterRenderer().render(scene().plain, options).stats.triangleCount;
+    options.pieceTriangles = 2000;
+    ASSERT_GT(triangleCount, 2 * *options.pieceTriangles);
+    options.memory = 50'000;
+    std::string message;
+    try {
+        rasterRenderer().render(scene().plain, options);
+    } catch (const Error& error) {
+        message = error.what();
+    }
+    unsigned long long vertices = 0, triangles = 0, all = 0;
+    ASSERT_EQ(std::sscanf(message.c_str(), "dicing makes %llu vertices and %llu triangles at a time, of %llu triangles",
+                          &vertices, &triangles, &all),
+              3)
+        << message;
+    EXPECT_EQ(all, triangleCount);
+    EXPECT_LE(triangles, *options.pieceTriangles);
+    EXPECT_GT(triangles, *options.pieceTriangles / 2);
+    EXPECT_GT(vertices, triangles / 2);
+    EXPECT_LT(vertices, triangleCount / 2);
+}
+
 // Mesa's CPU driver ended the process where dispatches were counted and draws followed.
 TEST_F(Raster, isNotCountedAsDraws) {
     RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
@@ -462,6 +495,28 @@ TEST_F(Raster, drawsTheLinesOfTheFixedFunction) {
     expectAlike(model, exactView(relief::Raster::compute), "floor");
 }
 
+/// How much nearer lines are drawn than they lie follows from the plane of the triangle, also where its first corner is
+/// so near to the plane through the eye that x / w and y / w overflow. A wall shows what is drawn much nearer.
+TEST_F(Raster, drawsTheLinesOfTrianglesThatPassTheEye) {
+    if (!device().traits().hasWireframe) GTEST_SKIP() << "no lines of the device";
+    const DenseMesh wall = meshOf({{-9, -3, -8}, {0.1f, -3, -8}, {-2, 2, -8}}, {0, 1, 2});
+    for (const float w : {1e-2f, 1e-7f, 1e-9f, 1e-20f, 0.0f, -1e-20f, -1e-9f, -1.0f}) {
+        DenseMesh mesh = wall;
+        for (const vec3& p : {vec3(0.3f, -1, -w), vec3(20, -1, -60), vec3(-20, -1, -60)}) {
+            mesh.indices.push_back(std::uint32_t(mesh.positions.size()));
+            mesh.positions.push_back(p);
+            mesh.normals.emplace_back(0, 1, 0);
+        }
+        const MeshModel model(device(), {.mesh = &mesh});
+        RenderOptions options = exactView(relief::Raster::hardware);
+        options.show = Show::wireframe;
+        const Image hardware = rasterRenderer().render(model, options).image();
+        options.raster = relief::Raster::compute;
+        const double rms = rmsDifference(rasterRenderer().render(model, options).image(), hardware);
+        EXPECT_LT(rms, 0.007) << w; // twice what the rounding of edges makes
+    }
+}
+
 /// n.l and v.r of vertices, interpolated, in the place of normals: once per light.
 TEST_F(Raster, shadesVerticesAsTheFixedFunction) {
     RenderOptions options = sceneOptions(scene().cage, relief::Raster::hardware);
@@ -487,6 +542,11 @@ TEST_F(Raster, isChosenForSmallTriangles) {
     const bool isFaster = device().traits().rastersFasterInCompute;
     EXPECT_EQ(chosen(), int(isFaster ? relief::Raster::compute : relief::Raster::hardware));
     options.rate = 2;
+    EXPECT_EQ(chosen(), int(relief::Raster::hardware));
+    // In pieces it is the compute rasterizer, whatever their size.
+    options.pieceTriangles = 100;
+    EXPECT_EQ(chosen(), int(isFaster ? relief::Raster::compute : relief::Raster::hardware));
+    options.raster = relief::Raster::hardware; // never in pieces
     EXPECT_EQ(chosen(), int(relief::Raster::hardware));
 }
 
