@@ -148,6 +148,14 @@ Displacement displacementAt(SurfacePoint point, float level) {
     return d;
 }
 
+// The number of the first incidence of the drawn face, or 0. Where nothing is displaced no direction is shared: the owner and the drawn
+// face are all that counts of the faces around a vertex, which may be a thousand.
+uint ownIncidence(uint face, SampleLocation location) {
+    for (uint i = 0u; i < location.incidenceCount; ++i)
+        if (fetchIncidence(location.firstIncidence + i).face == face) return i;
+    return 0u;
+}
+
 // Walks the faces that meet at the location, in the edge's fixed order: one of them where the surface is smooth, all where
 // their normals differ and they need a shared direction. The faces of each sector between sharp edges share one vote, so that
 // the direction does not jump from an edge to the corner at its end. The first face is the owner: it gives the point and the
@@ -162,6 +170,8 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
     vec3 ownersNormal = vec3(0), c = vec3(0);
     SurfacePoint owners; // of vector maps
     uint count = max(location.incidenceCount, 1u);
+    uint own = kHasHeight ? 0u : ownIncidence(face, location);
+    if (!kHasHeight) count = own > 0u ? 2u : 1u;
     bool isOwn = false;
     // One turn more for texture coordinates and their gradients where none of the incidences was of the drawn face: they may
     // differ from the owner's. A second call beside the loop would be compiled a second time.
@@ -172,8 +182,9 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
         Incidence incidence = location.owner;
         float share = 1.0;
         if (location.incidenceCount > 0u && !isExtra) {
-            incidence = fetchIncidence(location.firstIncidence + i);
-            if (incidence.start == incidence.end) share = sectorShare(location.firstIncidence + i);
+            uint index = location.firstIncidence + (kHasHeight || i == 0u ? i : own);
+            incidence = fetchIncidence(index);
+            if (incidence.start == incidence.end) share = sectorShare(index);
         }
         vec2 uv = location.isInside ? location.uv : incidencePoint(incidence, location.t);
         if (isExtra) incidence.face = face, uv = faceUV;

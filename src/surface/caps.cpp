@@ -225,6 +225,9 @@ private:
     int count_;
 };
 
+/// The eigenvalues of the slowest waves around many faces, of quads and of triangles: cap_rings.cpp has their formulas.
+constexpr double kSlowest[] = {(6 + 4.47213595499958) / 16, 0.625};
+
 constexpr int kSquarings = 24; ///< 2^24 refinements: what shrinks faster is gone, however many faces there are
 
 /// The projection to the eigenvectors of a matrix's largest eigenvalue, which must be real, and other ones smaller.
@@ -279,8 +282,8 @@ MatrixXd needleTangents(const CapPattern& pattern, const MatrixXd& deflated, con
     return rows;
 }
 
-/// At a crease those of the ring: the other points around the cap do not count.
-MatrixXd creaseTangents(const CapPattern& pattern, Eigen::Index count) {
+/// Those of the ring: the other points around the cap do not count.
+MatrixXd tangentsOfRing(const CapPattern& pattern, Eigen::Index count) {
     const MatrixXd ring = ringTangents(pattern);
     MatrixXd rows = MatrixXd::Zero(2, count);
     rows.leftCols(ring.cols()) = ring;
@@ -352,22 +355,27 @@ CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(p
             levels_[level - 1][piece] = weights;
         }
     }
-    // Directions at the vertex itself, by its rules. The deepest level stands for the limit between sharp edges. At
-    // darts of many faces, where it grows by up to 1.31 per level, it is as long as the first.
+    // Directions at the vertex itself, by its rules. The deepest level of a table stands for the limit between sharp
+    // edges. At darts of many faces, where it grows by up to 1.31 per level, it is about as long as the first. Vertices
+    // of many faces have the same directions whether or not there is a window, which depends on how many levels there
+    // are.
     const auto tangentsOf = [&](int level) { return diagonalTangents(pattern.sideCount, levels_[level - 1][1]); };
+    const bool isLarge = pattern.window > 0 || pattern.faceCount > kMostCapFaces;
     MatrixXd deepest = tangentsOf(int(kCapLevels));
-    if (pattern.window > 0 && pattern.isDart()) deepest *= tangentsOf(1).norm() / deepest.norm();
+    if (isLarge && pattern.isDart()) deepest *= std::pow(2 * kSlowest[pattern.sideCount == 3], 1 - int(kCapLevels));
     const bool isNeedle = pattern.isClosed && !pattern.hasDart;
     if (pattern.tangentCount() > 0)
         tangents_ = MatrixXd::Identity(a.rows(), a.rows()).bottomRows(2);
-    else if (pattern.window > 0 || (pattern.rule == VertexRule::corner && !isNeedle))
+    else if (isLarge && !pattern.hasDart && (isNeedle || pattern.rule != VertexRule::corner))
+        tangents_ = tangentsOfRing(pattern, a.cols());
+    else if (isLarge || (pattern.rule == VertexRule::corner && !isNeedle))
         tangents_ = deepest;
     else if (pattern.rule == VertexRule::corner)
         tangents_ = needleTangents(pattern, deflated, pieces[1]);
     else if (pattern.rule == VertexRule::smooth)
         tangents_ = smoothTangents(pattern, deflated, pieces[1]);
     else
-        tangents_ = pattern.faceCount == 1 ? loneFaceTangents(deepest) : creaseTangents(pattern, a.cols());
+        tangents_ = pattern.faceCount == 1 ? loneFaceTangents(deepest) : tangentsOfRing(pattern, a.cols());
     levels_.resize(levelCount);
 }
 

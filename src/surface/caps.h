@@ -23,6 +23,11 @@
 
 namespace relief {
 
+/// Faces around a vertex, between two sharp edges if it has them, whose points count one by one. Evaluations would take
+/// too long with more, and tables too much between sharp edges, where each face has its own: 300 kB per face for 64 of
+/// them. Vertices of more have windows.
+inline constexpr int kMostCapFaces = 64;
+
 /// How a vertex itself is refined.
 enum class VertexRule { smooth, crease, corner };
 

@@ -118,10 +118,6 @@ dvec2 patchCenter(const Far::PatchParam& param, int sideCount);
 /// `levelCount`: of the matrices.
 void findEndCaps(FarTables& tables, int levelCount);
 
-/// Faces around a vertex, between two sharp edges if it has them, whose points count one by one. Evaluations would take
-/// too long with more, and tables too much between sharp edges, where each face has its own: 300 kB per face for 64 of
-/// them. Vertices of more have windows.
-inline constexpr int kMostCapFaces = 64;
 /// Faces around a vertex at all.
 inline constexpr int kMostRingFaces = 1000;
 

@@ -11,6 +11,7 @@
 #include "surface/caps.h"
 #include "surface/deep_oracle.h"
 #include "surface/families.h"
+#include "surface/far.h"
 
 namespace relief {
 namespace {
@@ -224,7 +225,22 @@ TEST(ExactCaps, AreExactAroundVerticesOfTwoFaces) {
     EXPECT_LE(errors.tangent, 1e-7);
 }
 
-// Which patches are Gregory patches in spite of exact end caps is known of the cage and said of its faces.
+/// The faces of the cage where the reference only approximates the surface, at the middles of 8 x 8 squares of each.
+std::vector<std::uint32_t> approximateFaces(const Cage& cage, const SurfaceOptions& options, const Surface& surface) {
+    constexpr int kSquares = 8;
+    const ReferenceSurface reference(cage, options);
+    std::set<std::uint32_t> faces;
+    for (std::uint32_t face = 0; face < surface.faces.size(); ++face)
+        for (int i = 0; i < kSquares * kSquares; ++i) {
+            const dvec2 uv = (dvec2(i % kSquares, i / kSquares) + 0.5) / double(kSquares);
+            if (surface.sideCount == 3 && uv.x + uv.y >= 1) continue;
+            if (reference.isApproximate(int(face), uv)) faces.insert(surface.faces[face].cageFace);
+        }
+    return {faces.begin(), faces.end()};
+}
+
+// Which patches are Gregory patches in spite of exact end caps is known of the cage and said of its faces, and so is
+// where semi-sharp rules outlast the levels.
 TEST(ExactCaps, CoverAllFacesButSemiSharpOnes) {
     const auto countApproximate = [](const Cage& cage, const SurfaceOptions& options) {
         std::set<std::uint32_t> faces;
@@ -235,6 +251,7 @@ TEST(ExactCaps, CoverAllFacesButSemiSharpOnes) {
         const auto listed = listApproximateFaces(cage, options);
         EXPECT_TRUE(std::ranges::includes(listed, faces));
         EXPECT_EQ(listed.empty(), faces.empty());
+        EXPECT_EQ(listed, approximateFaces(cage, options, surface));
         return faces.size();
     };
     const std::vector<std::uint32_t> top{4, 5, 6, 7};
@@ -251,6 +268,51 @@ TEST(ExactCaps, CoverAllFacesButSemiSharpOnes) {
     EXPECT_EQ(listApproximateFaces(prism(4), {.isolation = 0, .endCaps = EndCapKind::gregory}).size(), 0u);
 }
 
+// Levels that semi-sharp rules need are not made around vertices without these: tables would grow for nothing.
+TEST(ExactCaps, NeedNoMoreLevelsThanSeparateVertices) {
+    const auto patchCount = [](const Cage& cage, int isolation) {
+        return buildSurface(cage, {.isolation = isolation}).patches.size();
+    };
+    for (const Cage& cage : {poles(5), withCreases(prism(4), {4, 5, 6, 7}, 10)})
+        EXPECT_EQ(patchCount(cage, 6), patchCount(cage, kSeparation));
+}
+
+/// p_u and p_v at the vertices of all exact end caps, from tables of so many levels.
+std::vector<dvec3> vertexTangents(const Family& family, int levelCount) {
+    const FarTables tables = makeFarTables(family.cage, optionsFor(family), levelCount);
+    const std::vector<Point> points = refineAll(tables, family.cage.positions);
+    std::vector<dvec3> tangents;
+    for (const std::optional<EndCap>& cap : tables.caps.surface) {
+        if (!cap) continue;
+        const dvec3 limit = points[pointCount(tables) + cap->limit].value;
+        const Eigen::MatrixXd& weights = tables.caps.patterns[cap->pattern]->tangentWeights();
+        for (Eigen::Index row = 0; row < 2; ++row) {
+            dvec3& sum = tangents.emplace_back(0);
+            for (std::size_t i = 0; i < cap->points.size(); ++i)
+                sum += weights(row, Eigen::Index(i)) * (points[std::size_t(cap->points[i])].value - limit);
+        }
+    }
+    return tangents;
+}
+
+// The device's tables have fewer levels than the reference's, and so windows around vertices whose faces all count one
+// by one in the reference. Both have the same directions at the vertex, which any two that span the tangent plane could
+// be, and certificates compare them.
+TEST(ExactCaps, HaveTheSameDirectionsAtTheVertexWithAndWithoutAWindow) {
+    const Family families[] = {{"smooth", poles(70)},
+                               {"dart", polesWithSharpSpokes(70, {3})},
+                               {"needle", withSharpVertex(poles(70), 140, 10)},
+                               {"loop", bipyramid(70), Scheme::loop},
+                               {"loop dart", bipyramidWithSharpSpokes(70, {3}), Scheme::loop}};
+    for (const Family& family : families) {
+        const std::vector<dvec3> few = vertexTangents(family, int(kCapLevels)), many = vertexTangents(family, 44);
+        ASSERT_EQ(few.size(), many.size());
+        ASSERT_GE(few.size(), 70u);
+        for (std::size_t i = 0; i < few.size(); ++i)
+            ASSERT_LE(glm::length(few[i] - many[i]), 1e-9 * glm::length(many[i])) << family.name << " " << i;
+    }
+}
+
 TEST(ExactCaps, NeedLevelsWhereRulesAreSemiSharp) {
     const auto needed = [](const Cage& cage) { return neededIsolation(cage, EndCapKind::exact); };
     const std::vector<std::uint32_t> top{4, 5, 6, 7};
@@ -258,6 +320,7 @@ TEST(ExactCaps, NeedLevelsWhereRulesAreSemiSharp) {
     EXPECT_EQ(needed(polesWithSharpSpokes(65, {0, 1})), 2);
     EXPECT_EQ(needed(withCreases(prism(4), top, 3.2F)), 4);
     EXPECT_EQ(needed(withCreases(prism(4), top, 9.5F)), 10);
+    EXPECT_EQ(needed(withSharpVertex(prism(4), 4, 3.2F)), 4);
     // Each level would double tables of 100 MB.
     Cage many = sheet(20, 20);
     for (std::uint32_t i = 0; i < 20; ++i)
