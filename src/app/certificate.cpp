@@ -218,9 +218,15 @@ json toJson(const Certificate& local) {
         {"curvature", makeCurvatureJson(c.curvature)},
         {"broken_promises", c.brokenPromises()}};
     for (const PathReport& report : c.paths) all["paths"].push_back(makePathJson(report, c.coordinates));
+    if (c.limitedEdgePixels) all["limited_edge_pixels"] = *c.limitedEdgePixels;
     if (!c.height.empty()) all["height"] = c.height, all["displacement_bound"] = c.displacementBound;
     if (c.seams) all["seams"] = makeSeamsJson(*c.seams, c.displacementBound);
     return all;
+}
+
+double limitEdgePixels(double pixels, double most, const std::function<std::uint64_t(double)>& planned) {
+    while (planned(pixels) > kMostCheckedTriangles && pixels < most) pixels *= 2;
+    return pixels;
 }
 
 std::string toText(const Certificate& local) {

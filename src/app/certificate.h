@@ -1,6 +1,7 @@
 // What `relief check` has found, as JSON and as text.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -32,6 +33,7 @@ struct Certificate {
     double diagonal = 0;          ///< of the cage; in the unit of `coordinates`, as all lengths
     double displacementBound = 0; ///< largest |h| of the map
     std::vector<PathReport> paths;
+    std::optional<double> limitedEdgePixels; ///< length of segments, where limitEdgePixels() made them longer
     FrameErrors frames;
     CornerReport corners;
     CurvatureReport curvature;
@@ -42,6 +44,12 @@ struct Certificate {
     /// break none.
     [[nodiscard]] std::vector<std::string> brokenPromises() const;
 };
+
+inline constexpr std::uint64_t kMostCheckedTriangles = 2'000'000; ///< most cages have half as many
+
+/// The length of segments, in pixels, with which at most kMostCheckedTriangles are made: `pixels`, doubled as often as
+/// that needs, until it is `most` or more. `planned`: the triangles that a length makes.
+double limitEdgePixels(double pixels, double most, const std::function<std::uint64_t(double)>& planned);
 
 nlohmann::json toJson(const Certificate& certificate);
 std::string toText(const Certificate& certificate);

@@ -19,9 +19,8 @@ struct CheckArgs {
     std::string heatmap, device;
 };
 
-constexpr std::size_t kPointsAtOnce = 1u << 18;     // keeps the device's buffers below 40 MB
-constexpr int kPictureSide = 1024;                  // pixels of the views, by which --edge-pixels are measured
-constexpr std::uint64_t kMostTriangles = 2'000'000; // where no rate is given; most cages have half as many
+constexpr std::size_t kPointsAtOnce = 1u << 18; // keeps the device's buffers below 40 MB
+constexpr int kPictureSide = 1024;              // pixels of the views, by which --edge-pixels are measured
 
 /// Azimuth and elevation: along the axes, from both sides.
 constexpr double kViews[][2] = {{0, 0}, {90, 0}, {180, 0}, {270, 0}, {0, 90}, {0, -90}};
@@ -40,26 +39,29 @@ public:
           renderer_(device, {.width = kPictureSide, .height = kPictureSide, .shadowSide = 1}),
           canSeeCracks_(enclosesVolume(object.surface)), points_(computeOutline(object)) {}
 
-    /// Where no rate was given: makes segments longer until each path makes at most kMostTriangles. A face has as many
-    /// segments each way as its longest side, so that faces of poles, long and thin, have hundreds of times too many.
-    void limitTriangles(TriangleOptions& options, const std::vector<Path>& paths, const Warn& warn) {
-        if (options.rate || args_.edgePixels->count() > 0) return;
+    /// Where no rate was given: makes segments longer until each path makes at most kMostCheckedTriangles. A face has
+    /// as many segments each way as its longest side, so that faces of poles, long and thin, have hundreds of times too
+    /// many. Returns their length in pixels where it had to.
+    std::optional<double> limitTriangles(TriangleOptions& options, const std::vector<Path>& paths, const Warn& warn) {
+        if (options.rate || args_.edgePixels->count() > 0) return {};
         const double pixels = options.edgePixels;
-        const auto plan = [&] {
+        std::uint64_t first = 0; // with the length of before
+        const auto planned = [&](double length) {
             std::uint64_t most = 0;
             TriangleOptions each = options;
+            each.edgePixels = length;
             for (const Path path : paths) {
                 each.path = path;
                 most = std::max(most, plannedTriangles(model_, path, ratesOf(each)));
             }
+            if (length == pixels) first = most;
             return most;
         };
-        const std::uint64_t first = plan();
-        for (std::uint64_t count = first; count > kMostTriangles && options.edgePixels < kPictureSide; count = plan())
-            options.edgePixels *= 2;
-        if (options.edgePixels > pixels)
-            warn(fmt::format("checked with --edge-pixels {}: segments of {} pixels would make {} triangles",
-                             options.edgePixels, pixels, first));
+        options.edgePixels = limitEdgePixels(pixels, kPictureSide, planned);
+        if (options.edgePixels == pixels) return {};
+        warn(fmt::format("checked with --edge-pixels {}: segments of {} pixels would make {} triangles",
+                         options.edgePixels, pixels, first));
+        return options.edgePixels;
     }
 
     /// `shift`: how far the crack pictures move every other vertex, cage units.
@@ -182,7 +184,7 @@ Certificate certify(const CheckArgs& args, LoadedObject& object) {
     const double shift = 0.04 * std::sqrt(certificate.curvature.area / double(certificate.faceCount));
     PathChecker checker(device, model, object, args);
     TriangleOptions triangles = args.triangles.options;
-    checker.limitTriangles(triangles, paths, makeWarn(args.output.isQuiet));
+    certificate.limitedEdgePixels = checker.limitTriangles(triangles, paths, makeWarn(args.output.isQuiet));
     for (const Path path : paths) {
         triangles.path = path;
         certificate.paths.push_back(checker.check(triangles, shift));
@@ -237,7 +239,7 @@ Run addCheck(CLI::App& app) {
         "Ends with exit code 6 when the triangles are not watertight or points and tangents are not exact. Folds, and\n"
         "heights that differ along the seams of the texture, come from the map: they are reported and change no code.\n"
         "Without --rate and --edge-pixels segments are longer than 2 pixels where those would make more than\n"
-        "2 million triangles, as long thin faces do.\n"
+        "2 million triangles, as long thin faces do; \"limited_edge_pixels\" of --json is their length then.\n"
         "examples:\n"
         "  relief check cage.obj --height map.exr --scale 0.2\n"
         "  relief check cage.obj --path dice --rate 16 --json\n"

@@ -187,8 +187,9 @@ void Viewer::watchFiles(double now) {
 void Viewer::watchProcesses() {
     if (const std::optional<int> code = export_ ? export_->poll() : std::nullopt) {
         const std::string complaints = export_->complaints(), last = lastLineOf(complaints);
+        const std::string warnings = warningsIn(complaints);
         export_.reset();
-        state_.notice = *code == 0 ? "the turntable is written\n" + warningsIn(complaints) : "";
+        state_.notice = *code == 0 ? "the turntable is written" + (warnings.empty() ? "" : "\n" + warnings) : "";
         if (*code != 0)
             state_.error = last.empty() ? fmt::format("the turntable ended with exit code {}", *code)
                                         : "the turntable was not written: " + last;

@@ -128,5 +128,24 @@ TEST(Certificate, listsAllBrokenPromises) {
     EXPECT_EQ(c.brokenPromises().size(), 3u);
 }
 
+// Triangles are a quarter as many with each doubling.
+TEST(Certificate, hasSegmentsThatMakeTwoMillionTrianglesAtMost) {
+    const auto limited = [](double trianglesOfOnePixel) {
+        return app::limitEdgePixels(
+            2, 1024, [&](double pixels) { return std::uint64_t(trianglesOfOnePixel / (pixels * pixels)); });
+    };
+    EXPECT_EQ(limited(8e6), 2) << "two million are allowed";
+    EXPECT_EQ(limited(8.1e6), 4);
+    EXPECT_EQ(limited(8e8), 32);
+    EXPECT_EQ(limited(1e15), 1024) << "the picture has no longer ones";
+}
+
+TEST(Certificate, saysThatSegmentsWereLimited) {
+    Certificate c = soundCertificate();
+    EXPECT_FALSE(toJson(c).contains("limited_edge_pixels"));
+    c.limitedEdgePixels = 16;
+    EXPECT_EQ(toJson(c).at("limited_edge_pixels"), 16);
+}
+
 } // namespace
 } // namespace relief::test
