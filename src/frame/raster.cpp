@@ -252,28 +252,57 @@ void Renderer::Parts::rasterizeMesh(VkCommandBuffer commands, const Frame& frame
     if (drawsListed.large) dispatchList(kLargeShader, kLargeList);
 }
 
-void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, std::span<const RasterTarget> targets) {
+void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, std::span<const RasterTarget> targets,
+                                Timer* times) {
+    const auto stamp = [&] {
+        if (times != nullptr) times->stamp(commands);
+    };
     for (const RasterTarget& target : targets)
         vkCmdFillBuffer(commands, target.buffer.handle.get(), 0, VK_WHOLE_SIZE, 0); // nothing, farthest depth
+    stamp();
     for (const Drawn& drawn : frame.drawn) {
         if (!drawn.diced.pieces) {
-            for (const RasterTarget& target : targets)
+            stamp();
+            for (const RasterTarget& target : targets) {
                 rasterizeMesh(commands, frame, drawn, meshSizeOf(drawn), drawn.firstId, target);
+                stamp();
+            }
             continue;
         }
         const std::vector<MeshSize> pieces = Dicer::piecesOf(drawn.diced);
         std::uint32_t firstId = drawn.firstId;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             dicer.recordPiece(commands, drawn.diced, i);
+            stamp();
             for (const RasterTarget& target : targets) {
                 rasterizeMesh(commands, frame, drawn, pieces[i], firstId, target);
                 // What later pieces hide is written over: of each sample the last one to write is the nearest one.
                 if (target.pass == DrawPass::surface && frame.writesIds)
                     resolveMesh(commands, frame, drawn, pieces[i], firstId);
+                stamp();
             }
             firstId += pieces[i].triangleCount;
         }
     }
+}
+
+/// With room for all stamps of rasterize().
+void Renderer::Parts::makePieceTimer(VkCommandBuffer commands, const Frame& frame, std::size_t targetCount) {
+    std::size_t meshes = 0;
+    for (const Drawn& drawn : frame.drawn) meshes += drawn.diced.pieces ? Dicer::piecesOf(drawn.diced).size() : 1;
+    pieceTimer.emplace(device, std::uint32_t(1 + meshes * (1 + targetCount)));
+    pieceTimer->reset(commands);
+}
+
+/// Dicing and shadows are among what was timed as color: surfacePass().
+void Renderer::Parts::readPieceTimes(Frame& frame) const {
+    const std::size_t perMesh = frame.castsShadows() ? 3 : 2;
+    const std::vector<double> times = pieceTimer->intervals();
+    double sums[3] = {};
+    for (std::size_t i = 0; i < times.size(); ++i) sums[i % perMesh] += times[i];
+    frame.stats.diceMs += sums[0];
+    frame.stats.shadowMs += sums[2];
+    frame.stats.colorMs = std::max(frame.stats.colorMs - sums[0] - sums[2], 0.0);
 }
 
 void Renderer::Parts::submit(Frame& frame) {

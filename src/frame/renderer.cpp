@@ -262,8 +262,10 @@ void Renderer::Parts::shadowPass(VkCommandBuffer commands, const Frame& frame) {
 void Renderer::Parts::surfacePass(VkCommandBuffer commands, const Frame& frame) {
     if (frame.raster == Raster::compute) {
         const RasterTarget both[] = {{DrawPass::surface, buffers->samples.buffer, size()}, shadowTarget()};
-        const bool drawsShadow = frame.isDicedInPieces() && frame.castsShadows();
-        rasterize(commands, frame, std::span(both).first(drawsShadow ? 2 : 1));
+        const bool hasPieces = frame.isDicedInPieces();
+        const std::span<const RasterTarget> targets = std::span(both).first(hasPieces && frame.castsShadows() ? 2 : 1);
+        if (hasPieces) makePieceTimer(commands, frame, targets.size());
+        rasterize(commands, frame, targets, hasPieces ? &*pieceTimer : nullptr);
         if (frame.writesIds) resolve(commands, frame);
         return;
     }
@@ -312,6 +314,7 @@ Picture Renderer::Parts::read(Frame& frame) {
         frame.stats.shadowMs = times[0], frame.stats.colorMs = times[1], frame.stats.lightMs = times[light];
         if (frame.hasOcclusion()) frame.stats.occlusionMs = times[2];
         if (!frame.otherLights().empty()) frame.stats.otherLightsMs = times[others];
+        if (frame.isDicedInPieces()) readPieceTimes(frame);
     }
     if (frame.countsPipeline()) frame.stats.pipeline = counter.counts();
     const auto* halves = static_cast<const std::uint16_t*>(this->picture.mapped);

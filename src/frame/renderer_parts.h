@@ -42,6 +42,7 @@ struct Renderer::Parts {
     Owned<VkSampler> around, nearest, smooth;
     std::map<SamplerKey, Owned<VkSampler>> samplers; ///< of the pictures of models
     Timer timer;
+    std::optional<Timer> pieceTimer; ///< of a frame in pieces: dicing, then each target, of one piece after another
     PipelineCounter counter;
     EdgeRater rater;
     Dicer dicer;
@@ -208,8 +209,12 @@ struct Renderer::Parts {
         return {DrawPass::shadow, buffers->shadow.buffer, uvec2(desc.shadowSide)};
     }
     /// Clears the targets of passes, and writes all instances to them: in one go, because a surface that is diced in
-    /// pieces is diced once per call.
-    void rasterize(VkCommandBuffer commands, const Frame& frame, std::span<const RasterTarget> targets);
+    /// pieces is diced once per call. `times` gets a stamp at first, and per piece or mesh one after dicing and after
+    /// each target.
+    void rasterize(VkCommandBuffer commands, const Frame& frame, std::span<const RasterTarget> targets,
+                   Timer* times = nullptr);
+    void makePieceTimer(VkCommandBuffer commands, const Frame& frame, std::size_t targetCount);
+    void readPieceTimes(Frame& frame) const;
     void rasterize(VkCommandBuffer commands, const Frame& frame, const RasterTarget& target) {
         rasterize(commands, frame, std::span(&target, 1));
     }

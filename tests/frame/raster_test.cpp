@@ -398,6 +398,26 @@ TEST_F(Raster, drawsASurfaceInPieces) {
         expectSameInPieces(std::span(&plain, 1), show);
 }
 
+/// Passes over pieces count as what they do, also where some instance is not in pieces.
+TEST_F(Raster, timesThePassesOfPieces) {
+    if (device().traits().timestampNanoseconds == 0) GTEST_SKIP() << "no times";
+    const DenseMesh mesh = meshOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2});
+    const MeshModel model(device(), {.mesh = &mesh});
+    const Instance two[] = {{scene().plain}, {model}};
+    for (const bool castsShadows : {false, true}) {
+        RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
+        options.rate = 40;
+        options.pieceTriangles = 20'000;
+        options.lighting.castsShadows = castsShadows;
+        const FrameStats stats = rasterRenderer().render(two, options).stats;
+        ASSERT_GT(stats.triangleCount, 100'000u);
+        EXPECT_GT(stats.diceMs, 0);
+        EXPECT_GT(stats.colorMs, 0);
+        EXPECT_TRUE(stats.shadowMs > 0 || !castsShadows);
+        EXPECT_LT(stats.diceMs + stats.shadowMs + stats.colorMs + stats.lightMs, stats.wallMs);
+    }
+}
+
 /// What does not fit is the largest piece.
 TEST_F(Raster, saysHowLargeAPieceIsThatMemoryDoesNotHold) {
     RenderOptions options = sceneOptions(scene().cage, relief::Raster::compute);
