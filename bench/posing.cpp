@@ -27,10 +27,13 @@ struct OsdStencils {
     /// `stencils` must have no shared rows: OpenSubdiv's stencils have only points of the cage.
     OsdStencils(const Stencils& stencils, std::span<const vec3> positions)
         : offsets(stencils.offsets.begin(), stencils.offsets.end() - 1),
-          indices(stencils.indices.begin(), stencils.indices.end()), weights(stencils.weights),
+          indices(stencils.indices.begin(), stencils.indices.end()), weights(stencils.weights.size()),
           to(3 * stencils.rowCount()) {
         for (std::size_t row = 0; row < stencils.rowCount(); ++row)
             sizes.push_back(int(stencils.offsets[row + 1] - stencils.offsets[row]));
+        for (std::size_t row = 0; row < stencils.rowCount(); ++row)
+            for (std::uint32_t k = stencils.offsets[row]; k < stencils.offsets[row + 1]; ++k)
+                weights[k] = float(stencils.weight(row, k));
         for (const vec3& p : positions) from.insert(from.end(), {p.x, p.y, p.z});
     }
 

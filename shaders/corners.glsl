@@ -23,9 +23,8 @@ vec3 straightCornerNormal(PatchPoints patchPoints, vec2 uv) {
     if ((patchPoints.straightCorners & bit) == 0u) return vec3(0);
     uint first = patchSize(patchPoints.surface.type) + 2u * bitCount(patchPoints.straightCorners & (bit - 1u));
     ControlPoints points = patchPoints.surface;
-    vec3 p = surfacePointAt(points, pointIndex(points, 5u * corner));
-    precise vec3 t = surfacePointAt(points, pointIndex(points, first)) - p;
-    precise vec3 d = surfacePointAt(points, pointIndex(points, first + 1u)) - p;
+    vec4 p = surfacePointAt(points, pointIndex(points, 5u * corner));
+    vec3 t = offsetAt(points, pointIndex(points, first), p), d = offsetAt(points, pointIndex(points, first + 1u), p);
     precise vec3 normal = cross(t, d);
     return dot(normal, normal) > kParallel * kParallel * dot(t, t) * dot(d, d) ? normal : vec3(0);
 }

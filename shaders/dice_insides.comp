@@ -73,7 +73,7 @@ void diceColumns(InsideTile tile, PatchPoints patchPoints) {
     vec4 levels = kHasMips ? levelsAt(inputs.rates.firstFaceLevel + tile.face) : vec4(0);
     uint surfaceBoundary = patchPoints.surface.boundary, textureBoundary = patchPoints.texture.boundary;
     ControlPoints restPoints = inPose(patchPoints.surface, inputs.model.pointsRest);
-    vec3 surfaceOrigin = originOf(patchPoints.surface), restOrigin = hasRest ? originOf(restPoints) : vec3(0);
+    vec4 surfaceOrigin = originOf(patchPoints.surface), restOrigin = hasRest ? originOf(restPoints) : vec4(0);
     for (uint start = 0u; start < size.x;) {
         uint left = size.x - start, width = gl_WorkGroupSize.x;
         while (4u * left < 3u * width) width >>= 1;

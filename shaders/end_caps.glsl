@@ -79,8 +79,8 @@ CapPlace placeInCap(uvec4 cap, vec2 at) {
 vec4 capWeights(uint texel) { return uintBitsToFloat(recordAt(texel)); }
 
 // A point around the cap, or a texture coordinate: by its index, never from a stage's own copies, which hold fewer.
-vec3 capPoint(ControlPoints points, uint i) {
-    if (isTexture(points)) return vec3(texPointAt(i), 0.0);
+vec4 capPoint(ControlPoints points, uint i) {
+    if (isTexture(points)) return vec4(texPointAt(i), 0.0, uintBitsToFloat(kNoRemainder));
     return surfacePointAt(points, i);
 }
 
@@ -130,7 +130,7 @@ LimitFrame pieceFrame(CapSums sums, vec2 uv) {
 LimitFrame exactCap(ControlPoints points, vec2 patchUV) {
     uvec4 cap = recordAt(points.first - 1u);
     CapPlace place = placeInCap(cap, capCoordinates(cap.z, patchUV));
-    vec3 limit = capPoint(points, pointRow(points, 0u).x);
+    vec4 limit = capPoint(points, pointRow(points, 0u).x);
     CapSums sums;
     sums.a = sums.b = sums.c = mat4x3(0.0);
 #ifndef RELIEF_TRIANGLES
@@ -139,7 +139,7 @@ LimitFrame exactCap(ControlPoints points, vec2 patchUV) {
     // At the vertex itself a point has one texel: what it adds to p_u and p_v.
     uint stride = place.isVertex ? 1u : kCapTexels;
     for (uint k = 0u; k < cap.y; ++k) {
-        vec3 p = capPoint(points, pointRow(points, k >> 2)[k & 3u]) - limit;
+        vec3 p = pointDifference(capPoint(points, pointRow(points, k >> 2)[k & 3u]), limit);
         uint texel = place.table + k * stride;
         vec4 a = capWeights(texel), b = capWeights(texel + 1u), c = capWeights(texel + 2u);
 #ifndef RELIEF_TRIANGLES
@@ -153,8 +153,8 @@ LimitFrame exactCap(ControlPoints points, vec2 patchUV) {
     }
     LimitFrame f = pieceFrame(sums, place.uv);
     vec3 offset = place.size * f.p;
-    f = LimitFrame(limit + offset, place.slope * f.pu, place.slope * f.pv, place.bend * f.puu, place.bend * f.puv, place.bend * f.pvv);
-    if (place.isVertex) f = LimitFrame(limit, sums.a[0], sums.a[1], vec3(0), vec3(0), vec3(0));
+    f = LimitFrame(fromOrigin(offset, limit), place.slope * f.pu, place.slope * f.pv, place.bend * f.puu, place.bend * f.puv, place.bend * f.pvv);
+    if (place.isVertex) f = LimitFrame(limit.xyz, sums.a[0], sums.a[1], vec3(0), vec3(0), vec3(0));
 
     // By the patch's coordinates.
     mat2 d = capDirections(cap.z);

@@ -5,6 +5,7 @@
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
 
+#include "points.glsl"
 #include "tables.glsl"
 #include "shared/bindings.h"
 #include "shared/constants.h"
@@ -109,6 +110,9 @@ uvec4 pointRow(ControlPoints points, uint row) {
 
 uint pointIndex(ControlPoints points, uint k) { return pointRow(points, k >> 2)[k & 3u]; }
 
-vec3 surfacePointAt(ControlPoints points, uint i) { return pointAt(points.array + i).xyz; }
+vec4 surfacePointAt(ControlPoints points, uint i) { return pointAt(points.array + i); }
+
+// Point i, as an offset from another one.
+vec3 offsetAt(ControlPoints points, uint i, vec4 origin) { return pointDifference(surfacePointAt(points, i), origin); }
 
 #endif

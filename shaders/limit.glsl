@@ -4,11 +4,13 @@
 
 #include "inputs.glsl"
 
-// Where control points come from: the surface's tables, unless a stage holds them itself (dice_tile.glsl).
-#ifndef RELIEF_POINT
+// Where control points come from, as offsets from their patch's origin: the surface's tables, unless a stage holds them itself
+// (dice_tile.glsl).
+#ifndef RELIEF_OFFSET
 #define RELIEF_POINT_ROW pointRow
 #define RELIEF_POINT_INDEX pointIndex
-#define RELIEF_POINT surfacePointAt
+#define RELIEF_OFFSET offsetAt
+#define RELIEF_ORIGIN(points) surfacePointAt(points, pointIndex(points, originIndex(points.type)))
 #define RELIEF_TEX_POINT texPointAt
 #define RELIEF_UNROLL
 #define RELIEF_MEETS_CORNERS // samples may lie in corners of faces
@@ -81,11 +83,25 @@ Leaf findLeaf(uint face, vec2 uv) {
 
 bool isTexture(ControlPoints points) { return readsTexCoords() && points.array == kTexturePoints; }
 
-// Control point k of a patch of the surface, or of the texture coordinates on it (in x and y).
-vec3 controlPoint(ControlPoints points, uint k) {
+// The patch's origin, one of its points. On deep levels points lie close together, and derivatives by the face's (u,v) magnify
+// what sums of whole coordinates round off, second ones 4^depth times. Of texture coordinates it is 0.
+uint originIndex(uint type) { return type == kPatchRegular ? 5u : 0u; }
+vec4 originOf(ControlPoints points) {
+    if (isTexture(points)) return vec4(vec3(0), uintBitsToFloat(kNoRemainder));
+    return RELIEF_ORIGIN(points);
+}
+
+vec3 fromOrigin(vec3 offset, vec4 origin) {
+    precise vec3 p = origin.xyz + (remainderOf(origin) + offset);
+    return p;
+}
+LimitFrame fromOrigin(LimitFrame f, vec4 origin) { return LimitFrame(fromOrigin(f.p, origin), f.pu, f.pv, f.puu, f.puv, f.pvv); }
+
+// Control point k of a patch of the surface, or of the texture coordinates on it (in x and y): its offset from the origin.
+vec3 controlPoint(ControlPoints points, uint k, vec4 origin) {
     uint i = RELIEF_POINT_INDEX(points, k);
     if (isTexture(points)) return vec3(RELIEF_TEX_POINT(i), 0.0);
-    return RELIEF_POINT(points, i);
+    return RELIEF_OFFSET(points, i, origin);
 }
 
 #ifdef RELIEF_TRIANGLES
@@ -100,13 +116,13 @@ vec3 controlPoint(ControlPoints points, uint k) {
 
 // --- any patch, by OpenSubdiv's generic basis: the check of the forms above -----------------------------------------
 
-LimitFrame generic(ControlPoints points, vec2 uv) {
+LimitFrame generic(ControlPoints points, vec2 uv, vec4 origin) {
     float p[20], du[20], dv[20], duu[20], duv[20], dvv[20];
     OsdPatchParam param = OsdPatchParamInit(0, int(points.boundary << 7), 0.0);
     int count = OsdEvaluatePatchBasisNormalized(int(points.type), param, uv.x, uv.y, p, du, dv, duu, duv, dvv);
     LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(points, uint(i));
+        vec3 c = controlPoint(points, uint(i), origin);
         f.p += p[i] * c;
         f.pu += du[i] * c;
         f.pv += dv[i] * c;
@@ -118,23 +134,32 @@ LimitFrame generic(ControlPoints points, vec2 uv) {
 }
 #endif
 
+#ifndef RELIEF_TRIANGLES
+// The frame of a patch without a cap, from its origin.
+LimitFrame quadPatch(ControlPoints points, vec2 uv, vec4 origin) {
+#ifdef RELIEF_GENERIC_BASIS
+    if (kGenericBasis) return generic(points, uv, origin);
+#endif
+    if (points.type == kPatchRegular) {
+        if (isTexture(points)) return regularTexture(points, uv);
+        return regular(points, uv, origin);
+    }
+    if (hasPatches(kPatchQuads) && points.type == kPatchQuads) return bilinear(points, uv, origin);
+    if (hasPatches(kPatchGregory)) return gregory(points, uv, origin);
+    return kNoFrame;
+}
+#endif
+
 // The frame of a patch by its own (u,v): of the surface, or of the texture coordinates on it (in x and y).
 LimitFrame patchFrame(ControlPoints points, vec2 uv) {
 #ifdef RELIEF_TRIANGLES
     if (hasPatches(kPatchExactTriangle) && points.type == kPatchExactTriangle) return exactCap(points, uv);
-    return trianglePatch(points, uv);
+    vec4 origin = originOf(points);
+    return fromOrigin(trianglePatch(points, uv, origin), origin);
 #else
     if (hasPatches(kPatchExactQuad) && points.type == kPatchExactQuad) return exactCap(points, uv);
-#ifdef RELIEF_GENERIC_BASIS
-    if (kGenericBasis) return generic(points, uv);
-#endif
-    if (points.type == kPatchRegular) {
-        if (isTexture(points)) return regularTexture(points, uv);
-        return regular(points, uv);
-    }
-    if (hasPatches(kPatchQuads) && points.type == kPatchQuads) return bilinear(points, uv);
-    if (hasPatches(kPatchGregory)) return gregory(points, uv);
-    return kNoFrame;
+    vec4 origin = originOf(points);
+    return fromOrigin(quadPatch(points, uv, origin), origin);
 #endif
 }
 

@@ -16,17 +16,19 @@ const uint kLanes = 8u;
 void main() {
     uint lane = gl_LocalInvocationID.x, block = push.firstBlock + gl_WorkGroupID.x;
     uint first = push.firstBlockEntry + kEntries * gl_WorkGroupID.x;
-    vec3 points = entryPoint(first + lane), origin = subgroupShuffle(points, 0u), low = vec3(0), high = vec3(0);
-    points -= origin;
+    vec3 point = entryPoint(first + lane), origin = subgroupShuffle(point, 0u);
+    SplitOffset own = offsetBetween(point, origin);
+    RowSum low = kNoSum, high = kNoSum;
     [[unroll]] for (uint e = 0u; e < kEntries; e += 4u) {
-        if (e > 0u && e % kLanes == 0u) points = entryPoint(first + e + lane) - origin;
-        vec4 v = weightsOf(first + e, lane), w = weightsOf(first + e, lane + kLanes);
+        if (e > 0u && e % kLanes == 0u) own = offsetBetween(entryPoint(first + e + lane), origin);
+        ivec4 v = weightsOf(first + e, lane), w = weightsOf(first + e, lane + kLanes);
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
-            vec3 offset = subgroupShuffle(points, e % kLanes + j);
-            low += v[j] * offset;
-            high += w[j] * offset;
+            uint from = e % kLanes + j;
+            SplitOffset offset = SplitOffset(subgroupShuffle(own.coarse, from), subgroupShuffle(own.rest, from));
+            add(low, v[j], offset);
+            add(high, w[j], offset);
         }
     }
-    storeRow(block, lane, origin + low);
-    storeRow(block, lane + kLanes, origin + high);
+    storeRow(block, lane, origin, low);
+    storeRow(block, lane + kLanes, origin, high);
 }

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "pose.glsl"
+#include "shared/points.h"
 #include "rig.glsl"
 
 // The points of a cage: as they were uploaded, or from its rig.
@@ -19,5 +20,5 @@ void main() {
     if (point >= push.pointCount) return;
     vec3 p = push.isRigged != 0u ? rigged(point)
                                  : vec3(uploaded(3u * point), uploaded(3u * point + 1u), uploaded(3u * point + 2u));
-    push.target.at[push.firstPoint + point] = vec4(p, 1.0);
+    push.target.at[push.firstPoint + point] = vec4(p, uintBitsToFloat(kNoRemainder));
 }

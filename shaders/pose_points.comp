@@ -11,10 +11,11 @@ void main() {
     uint block = push.firstBlock + invocation / kBlockRows, lane = invocation % kBlockRows;
     if (block >= push.endBlock) return;
     uint first = word(block), last = word(block + 1u);
-    vec3 origin = entryPoint(first), sum = vec3(0);
+    vec3 origin = entryPoint(first);
+    RowSum sum = kNoSum;
     for (uint e = first; e < last; e += 4u) {
-        vec4 w = weightsOf(e, lane);
-        for (uint j = 0u; j < 4u; ++j) sum += w[j] * (entryPoint(e + j) - origin);
+        ivec4 w = weightsOf(e, lane);
+        for (uint j = 0u; j < 4u; ++j) add(sum, w[j], offsetBetween(entryPoint(e + j), origin));
     }
-    storeRow(block, lane, origin + sum);
+    storeRow(block, lane, origin, sum);
 }

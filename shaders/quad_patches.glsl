@@ -47,19 +47,15 @@ void regularWeights(vec2 uv, uint boundary, out CurveWeights u, out CurveWeights
     }
 }
 
-// What a row of control points adds up to along u, by the point and two derivatives: from the patch's origin, one of
-// its points. On deep levels points lie close together, and second derivatives by the face's (u,v) magnify what sums of
-// whole coordinates round off 4^depth times.
+// What a row of control points adds up to along u, by the point and two derivatives: from the patch's origin.
 struct RowSums {
     vec3 x, xu, xuu;
 };
 
-vec3 originOf(ControlPoints points) { return RELIEF_POINT(points, RELIEF_POINT_ROW(points, 1u).y); }
-
-RowSums sumRow(ControlPoints points, uint row, CurveWeights u, vec3 origin) {
+RowSums sumRow(ControlPoints points, uint row, CurveWeights u, vec4 origin) {
     uvec4 i = RELIEF_POINT_ROW(points, row);
-    vec3 a = RELIEF_POINT(points, i.x) - origin, b = RELIEF_POINT(points, i.y) - origin;
-    vec3 c = RELIEF_POINT(points, i.z) - origin, d = RELIEF_POINT(points, i.w) - origin;
+    vec3 a = RELIEF_OFFSET(points, i.x, origin), b = RELIEF_OFFSET(points, i.y, origin);
+    vec3 c = RELIEF_OFFSET(points, i.z, origin), d = RELIEF_OFFSET(points, i.w, origin);
     precise vec3 x = u.w.x * a + u.w.y * b + u.w.z * c + u.w.w * d;
     precise vec3 xu = u.d.x * a + u.d.y * b + u.d.z * c + u.d.w * d;
     precise vec3 xuu = u.dd.x * a + u.dd.y * b + u.dd.z * c + u.dd.w * d;
@@ -73,25 +69,24 @@ void addRow(inout LimitFrame f, RowSums sums, CurveWeights v, uint row) {
     f = LimitFrame(p, pu, pv, puu, puv, pvv);
 }
 
-LimitFrame fromOrigin(LimitFrame f, vec3 origin) {
-    precise vec3 p = origin + f.p;
-    return LimitFrame(p, f.pu, f.pv, f.puu, f.puv, f.pvv);
-}
-
-LimitFrame frameOfRows(RowSums rows[4], CurveWeights v, vec3 origin) {
+LimitFrame frameOfRows(RowSums rows[4], CurveWeights v, vec4 origin) {
     LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addRow(f, rows[row], v, row);
     return fromOrigin(f, origin);
 }
 
 // Row by row, without an array of them: SwiftShader compiles arrays in loops for minutes.
-LimitFrame regular(ControlPoints points, vec2 uv) {
+LimitFrame regular(ControlPoints points, vec2 uv, vec4 origin) {
     CurveWeights u, v;
     regularWeights(uv, points.boundary, u, v);
-    vec3 origin = originOf(points);
     LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint row = 0u; row < 4u; ++row) addRow(f, sumRow(points, row, u, origin), v, row);
-    return fromOrigin(f, origin);
+    return f;
+}
+
+LimitFrame bicubicFrame(ControlPoints points, vec2 uv) {
+    vec4 origin = originOf(points);
+    return fromOrigin(regular(points, uv, origin), origin);
 }
 
 // The frame of the texture coordinates on such a patch: two components, first derivatives; second ones only where the
@@ -141,13 +136,13 @@ LimitFrame regularTexture(ControlPoints points, vec2 uv) {
 const uint kGregoryRows[4] = {0u | 1u << 5 | 7u << 10 | 5u << 15, 2u | 3u << 5 | 8u << 10 | 6u << 15,
                               16u | 18u << 5 | 13u << 10 | 12u << 15, 15u | 17u << 5 | 11u << 10 | 10u << 15};
 
-LimitFrame gregory(ControlPoints points, vec2 uv) {
+LimitFrame gregory(ControlPoints points, vec2 uv, vec4 origin) {
     CurveWeights u = bezierWeights(uv.x), v = bezierWeights(uv.y);
     precise LimitFrame f = kNoFrame;
     RELIEF_UNROLL for (uint k = 0u; k < 16u; ++k) {
         uint row = k >> 2, column = k & 3u;
         uint point = (kGregoryRows[row] >> (5u * column)) & 31u;
-        vec3 c = controlPoint(points, point);
+        vec3 c = controlPoint(points, point, origin);
         vec3 cu = vec3(0), cv = vec3(0), cuu = vec3(0), cuv = vec3(0), cvv = vec3(0);
         if ((row == 1u || row == 2u) && (column == 1u || column == 2u)) {
             // Distances from the corner's two sides and their derivatives: +1 at the near end, -1 at the far one.
@@ -161,7 +156,7 @@ LimitFrame gregory(ControlPoints points, vec2 uv) {
             float gx = (isX ? y : -y) * inverse * inverse, gy = (isX ? -x : x) * inverse * inverse;
             float gxx = -2.0 * gx * inverse, gyy = -2.0 * gy * inverse;
             float gxy = (isX ? x - y : y - x) * inverse * inverse * inverse;
-            vec3 other = controlPoint(points, point + 1u);
+            vec3 other = controlPoint(points, point + 1u, origin);
             vec3 difference = c - other;
             c = other + g * difference;
             cu = gx * du * difference;
@@ -189,9 +184,9 @@ LimitFrame gregory(ControlPoints points, vec2 uv) {
 
 // --- bilinear patches -----------------------------------------------------------------------------------------------
 
-LimitFrame bilinear(ControlPoints points, vec2 uv) {
-    vec3 a = controlPoint(points, 0u), b = controlPoint(points, 1u);
-    vec3 c = controlPoint(points, 2u), d = controlPoint(points, 3u);
+LimitFrame bilinear(ControlPoints points, vec2 uv, vec4 origin) {
+    vec3 a = controlPoint(points, 0u, origin), b = controlPoint(points, 1u, origin);
+    vec3 c = controlPoint(points, 2u, origin), d = controlPoint(points, 3u, origin);
     LimitFrame f = kNoFrame;
     precise vec3 low = (1.0 - uv.x) * a + uv.x * b, high = (1.0 - uv.x) * d + uv.x * c;
     precise vec3 p = (1.0 - uv.y) * low + uv.y * high;

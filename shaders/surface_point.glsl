@@ -100,9 +100,9 @@ PointFrames evaluateInOneCall(PatchPoints patchPoints, Leaf leaf, bool wantsText
 
 // What evaluateInOneCall() gives where both patches are bicubic: code for nothing else.
 PointFrames evaluateBicubic(PatchPoints patchPoints, Leaf leaf, bool wantsTexture, bool wantsRest) {
-    PointFrames frames = PointFrames(byFace(regular(patchPoints.surface, leaf.uv), leaf.scale), kNoFrame, kNoFrame);
+    PointFrames frames = PointFrames(byFace(bicubicFrame(patchPoints.surface, leaf.uv), leaf.scale), kNoFrame, kNoFrame);
     if (wantsTexture) frames.texture = byFace(regularTexture(patchPoints.texture, leaf.uv), leaf.scale);
-    if (wantsRest) frames.rest = byFace(regular(inPose(patchPoints.surface, inputs.model.pointsRest), leaf.uv), leaf.scale);
+    if (wantsRest) frames.rest = byFace(bicubicFrame(inPose(patchPoints.surface, inputs.model.pointsRest), leaf.uv), leaf.scale);
     return frames;
 }
 #endif

@@ -7,10 +7,10 @@ struct Weights {
     float p[18], du[18], dv[18], duu[18], duv[18], dvv[18];
 };
 
-LimitFrame weighted(Weights w, int count, ControlPoints points) {
+LimitFrame weighted(Weights w, int count, ControlPoints points, vec4 origin) {
     precise LimitFrame f = kNoFrame;
     for (int i = 0; i < count; ++i) {
-        vec3 c = controlPoint(points, uint(i));
+        vec3 c = controlPoint(points, uint(i), origin);
         f.p += w.p[i] * c;
         f.pu += w.du[i] * c;
         f.pv += w.dv[i] * c;
@@ -53,7 +53,7 @@ void addQuotientRule(inout Weights w, int first, float a, float b, vec2 da, vec2
     }
 }
 
-LimitFrame trianglePatch(ControlPoints points, vec2 uv) {
+LimitFrame trianglePatch(ControlPoints points, vec2 uv, vec4 origin) {
     Weights w;
     int count = 18;
     if (hasPatches(kPatchGregoryTriangle) && points.type == kPatchGregoryTriangle) {
@@ -80,5 +80,5 @@ LimitFrame trianglePatch(ControlPoints points, vec2 uv) {
             w.duu[i] = duu[i], w.duv[i] = duv[i], w.dvv[i] = dvv[i];
         }
     }
-    return weighted(w, count, points);
+    return weighted(w, count, points, origin);
 }

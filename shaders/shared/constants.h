@@ -46,7 +46,8 @@ RELIEF_CONSTANT uint kIdReadsNodes = 33u;         // every sample lies on a node
 RELIEF_CONSTANT uint kIdHasPictureTiles = 34u;    // pictures cover more than the unit square, see lookup.glsl
 RELIEF_CONSTANT uint kIdVectorSpace = 35u;        // kVector...
 RELIEF_CONSTANT uint kIdPatchTypes = 36u;         // bit t: some patches are of type t (kPatch...), or their texture's
-RELIEF_CONSTANT uint kIdCount = 37u;
+RELIEF_CONSTANT uint kIdIsFine = 37u;             // posing: sums of stencils are finer than floats, see shared/pose.h
+RELIEF_CONSTANT uint kIdCount = 38u;
 
 // What a picture shows (--show).
 RELIEF_CONSTANT uint kShowShaded = 0u;

@@ -22,9 +22,17 @@ RELIEF_CONSTANT uint kPoseBindCount = 8u;
 // Stencils in blocks of sixteen rows over one list of points (entries) that serves all sixteen: neighbouring rows use
 // nearly the same points. Entries come in eights; what a row does not use has weight 0. Blocks with as many entries lie
 // one behind another. Weight of row r for entries e to e + 3 of all (e a multiple of 4): vector 4 e + r of
-// kPoseWeights.
+// kPoseWeights, a whole number; a target is the row and, in its upper five bits, 31 more than the exponent of its
+// weights (Stencils::scales).
 RELIEF_CONSTANT uint kBlockRows = 16u;
 RELIEF_CONSTANT uint kEntriesTogether = 8u;
+RELIEF_CONSTANT uint kTargetRowBits = 27u;
+
+// Sums of rows that are finer than floats: upper bits of weights times offsets in whole units are whole numbers that
+// floats add up exactly while their sizes add up to less than 2^24; all else is smaller by as many bits, and so is its
+// rounding.
+RELIEF_CONSTANT int kFineWeightBits = 19; // the others: the upper ones of a row add up to 2^12 at most
+RELIEF_CONSTANT int kOffsetBits = 12;
 
 #ifndef __cplusplus
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer Points { vec4 at[]; };
@@ -45,7 +53,7 @@ struct PosePush {
     uint isRigged;                    // 1: the upload is morph weights and joints
     RELIEF_ADDRESS(Points) gradients; // pose_mesh.comp: kBindMeshTexGradients
     uint gradientTexels;              // of them per vertex, or 0
-    uint unused;
+    float offsetUnit;                 // a power of two: 2^kOffsetBits of it are as long as the cage's box
 };
 
 #ifdef __cplusplus

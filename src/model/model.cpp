@@ -3,6 +3,7 @@
 
 #include "displacement/tile_levels.h"
 #include "model/pictures.h"
+#include "model/records.h"
 #include "model/stages.h"
 
 namespace relief {
@@ -172,7 +173,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
     copyTopology(surface, *this);
 
     // Points of the pose that the cage is in, and the bounds of its faces.
-    const std::vector<vec3> refined = refinePoints(surface, desc.cagePositions);
+    const std::vector<dvec3> finePoints = refinePoints(surface, desc.cagePositions);
+    const std::vector<vec3> refined(finePoints.begin(), finePoints.end());
     faceTexBoxes = relief::faceTexBoxes(surface);
     const bool movesByFunction = function && functionMovesSurface;
     faceHeightBounds = movesByFunction ? std::vector<float>(surface.faces.size(), height->heightBound)
@@ -185,9 +187,8 @@ SurfaceModel::SurfaceModel(Device& device, const SurfaceModelDesc& desc) {
             for (FaceNormals& face : faceNormals) goByFace(face);
         normalBounds = relief::normalBounds(faceNormals, faceTexBoxes, heightPyramid);
     }
-    std::vector<vec4> texels;
-    texels.reserve(refined.size());
-    for (const vec3& p : refined) texels.emplace_back(p, 1.0f);
+    std::vector<vec4> texels(finePoints.size());
+    std::ranges::transform(finePoints, texels.begin(), packPoint);
     points.table = uploadTexels(device, {.name = "points"}, VK_FORMAT_R32G32B32A32_SFLOAT, bytesOf(texels));
     byteCount = device.allocatedBytes() - before;
 }

@@ -1,6 +1,7 @@
 // The tables of a surface in the bits of shared/records.h.
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <numeric>
 #include <span>
 
@@ -180,6 +181,15 @@ SurfaceRecords recordsOf(const Surface& surface) {
     records.firstIncidence = texel();
     appendIncidences(words, surface);
     return records;
+}
+
+vec4 packPoint(const dvec3& point) {
+    const vec3 nearest(point);
+    const vec3 sizes = glm::abs(nearest);
+    const int exponent = std::ilogb(std::max({sizes.x, sizes.y, sizes.z, 0x1p-63F}));
+    const dvec3 remainder = (point - dvec3(nearest)) / std::ldexp(double(kRemainderStep), exponent);
+    const glm::uvec3 steps(glm::clamp(glm::round(remainder) + 512.0, 12.0, 1012.0));
+    return vec4(nearest, std::bit_cast<float>(steps.x | steps.y << 10 | steps.z << 20));
 }
 
 } // namespace relief

@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "shared/points.h"
 #include "shared/records.h"
 #include "surface/surface.h"
 
@@ -27,5 +28,8 @@ struct SurfaceRecords {
     std::uint32_t patchTypes = 0; ///< kIdPatchTypes
 };
 SurfaceRecords recordsOf(const Surface& surface);
+
+/// A point as shared/points.h says.
+vec4 packPoint(const dvec3& point);
 
 } // namespace relief

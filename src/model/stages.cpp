@@ -101,6 +101,7 @@ std::vector<std::uint32_t> ShaderConstants::values() const {
     values[kIdIsPlaced] = isPlaced;
     values[kIdHasInstances] = hasInstances;
     values[kIdEntries] = entryCount;
+    values[kIdIsFine] = isFine;
     values[kIdHeightFunction] = heightFunction;
     values[kIdReadsRest] = readsRest;
     values[kIdReadsSampleBuffers] = readsSampleBuffers;

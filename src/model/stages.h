@@ -30,6 +30,7 @@ struct ShaderConstants {
     std::uint32_t pass = kPassSurface;
     bool isMesh = false, isPlaced = false, hasInstances = false;
     std::uint32_t entryCount = 0; ///< kIdEntries
+    bool isFine = false;
     bool hasTexGradients = false, hasSlopes = false;
     std::uint32_t normalMap = kNormalMapNone;
     std::uint32_t heightFunction = 0; ///< HeightFunction::number()

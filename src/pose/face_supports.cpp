@@ -21,7 +21,7 @@ public:
         for (std::size_t row = 0; row < surface.stencils.rowCount(); ++row) {
             float sum = 0;
             for (std::uint32_t k = surface.stencils.offsets[row]; k < surface.stencils.offsets[row + 1]; ++k)
-                sum += std::abs(surface.stencils.weights[k]) * spreadOf(surface.stencils.indices[k]);
+                sum += float(std::abs(surface.stencils.weight(row, k))) * spreadOf(surface.stencils.indices[k]);
             rowSpreads_.push_back(sum);
         }
     }

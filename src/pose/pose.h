@@ -24,7 +24,7 @@ struct StencilBlocks {
     std::vector<std::uint32_t> firsts;  ///< first entry of each block, one more at the end
     std::vector<std::uint32_t> targets; ///< rows, kBlockRows per block; kNoPatch past the last one
     std::vector<std::uint32_t> entries; ///< points; those that fill up an eight repeat the block's first
-    std::vector<float> weights;         ///< kBlockRows per entry
+    std::vector<std::int32_t> weights;  ///< kBlockRows per entry
     /// The first blocks, of shared rows and in no class: the others may need what they make.
     std::uint32_t sharedBlockCount = 0;
 

@@ -19,6 +19,25 @@ void appendFloats(std::vector<float>& floats, std::span<const vec3> points) {
     for (const vec3& p : points) floats.insert(floats.end(), {p.x, p.y, p.z});
 }
 
+/// Whether points lie so close together that the rounding of sums shows in derivatives: on exact surfaces with deep
+/// levels, which are those around semi-sharp creases.
+bool needsFineSums(const Surface& surface) {
+    constexpr std::uint32_t kDepthMask = 15; // of Far::PatchParam's field1
+    bool isDeep = false;
+    for (const Patch& patch : surface.patches) {
+        if (patch.type == kPatchGregory || patch.type == kPatchGregoryTriangle) return false;
+        isDeep |= (patch.param1 & kDepthMask) > std::uint32_t(kSeparation);
+    }
+    return isDeep;
+}
+
+/// PosePush::offsetUnit of a pose.
+float offsetUnit(std::span<const vec3> positions) {
+    Bounds box;
+    for (const vec3& p : positions) box.add(dvec3(p));
+    return box.longestSide() > 0 ? std::ldexp(1.0F, std::ilogb(box.longestSide()) + 1 - kOffsetBits) : 1;
+}
+
 } // namespace
 
 struct Poser::Parts {
@@ -29,6 +48,7 @@ struct Poser::Parts {
     FaceSupports supports;
     std::optional<Rig> rig;
     float mostStretch = 1;
+    bool isFine; ///< kIdIsFine
     TexelBuffer words, weights, rest, joints, influences;
     TexelBuffer uploads[2]; ///< taken in turn: one is written while the device may still read the other
     Pipeline cagePipeline;
@@ -46,7 +66,7 @@ struct Poser::Parts {
     Bounds bounds;
     PoseStats stats;
 
-    void uploadStencils(const StencilBlocks& blocks);
+    void uploadStencils(const StencilBlocks& blocks, const Stencils& stencils);
     void uploadRig();
     void makePasses(const StencilBlocks& blocks);
     void addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
@@ -56,11 +76,12 @@ struct Poser::Parts {
     void checkPose(const Pose& pose) const;
     /// What goes to the device: the posed cage, or what moves its rig.
     [[nodiscard]] std::vector<float> uploadOf(const Pose& pose) const;
-    void evaluate(std::span<const float> floats, std::uint32_t firstPoint, bool isRigged);
+    void evaluate(std::span<const float> floats, std::span<const vec3> positions, std::uint32_t firstPoint,
+                  bool isRigged);
 };
 
 Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
-    : device(device), model(model), supports(*desc.surface) {
+    : device(device), model(model), supports(*desc.surface), isFine(needsFineSums(*desc.surface)) {
     if (desc.rig != nullptr) rig = *desc.rig;
     const Surface& surface = *desc.surface;
     push.pointCount = surface.controlPointCount;
@@ -85,7 +106,7 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
 
     // What no pose changes.
     const StencilBlocks blocks = stencilBlocks(surface.stencils);
-    uploadStencils(blocks);
+    uploadStencils(blocks, surface.stencils);
     uploadRig();
     makePasses(blocks);
     bindAll(sets.table);
@@ -96,17 +117,19 @@ Poser::Parts::Parts(Device& device, SurfaceModel& model, const PoserDesc& desc)
     model.setPoints(std::move(sets));
     std::vector<float> restFloats;
     appendFloats(restFloats, desc.restPositions);
-    if (firstRest) evaluate(restFloats, *firstRest, false);
+    if (firstRest) evaluate(restFloats, desc.restPositions, *firstRest, false);
 }
 
-void Poser::Parts::uploadStencils(const StencilBlocks& blocks) {
+void Poser::Parts::uploadStencils(const StencilBlocks& blocks, const Stencils& stencils) {
     std::vector<std::uint32_t> all = blocks.firsts;
     push.firstTarget = std::uint32_t(all.size());
-    all.insert(all.end(), blocks.targets.begin(), blocks.targets.end());
+    RELIEF_CHECK(stencils.rowCount() < 1u << kTargetRowBits);
+    for (const std::uint32_t row : blocks.targets)
+        all.push_back(row == kNoPatch ? kNoPatch : row | std::uint32_t(stencils.scales[row] + 31) << kTargetRowBits);
     push.firstEntry = std::uint32_t(all.size());
     all.insert(all.end(), blocks.entries.begin(), blocks.entries.end());
     words = uploadTexels(device, {.name = "stencil words"}, VK_FORMAT_R32_UINT, std::as_bytes(std::span(all)));
-    weights = uploadTexels(device, {.name = "stencil weights"}, VK_FORMAT_R32G32B32A32_SFLOAT,
+    weights = uploadTexels(device, {.name = "stencil weights"}, VK_FORMAT_R32G32B32A32_UINT,
                            std::as_bytes(std::span(blocks.weights)));
 }
 
@@ -148,9 +171,10 @@ void Poser::Parts::makePasses(const StencilBlocks& blocks) {
 
 void Poser::Parts::addPass(std::uint32_t entryCount, const StencilBlocks& blocks, std::uint32_t firstBlock,
                            std::uint32_t endBlock) {
-    passes.push_back({entryCount == 0 ? makePosePipeline(device, "pose_points.comp", {.groupSize = kPointsGroup})
-                                      : makePosePipeline(device, "pose_blocks.comp",
-                                                         {.groupSize = kLanes, .entryCount = entryCount}),
+    passes.push_back({entryCount == 0
+                          ? makePosePipeline(device, "pose_points.comp", {.groupSize = kPointsGroup, .isFine = isFine})
+                          : makePosePipeline(device, "pose_blocks.comp",
+                                             {.groupSize = kLanes, .entryCount = entryCount, .isFine = isFine}),
                       firstBlock, endBlock, blocks.firsts[firstBlock], entryCount});
 }
 
@@ -185,12 +209,14 @@ std::vector<float> Poser::Parts::uploadOf(const Pose& pose) const {
     return floats;
 }
 
-/// All points of the set that begins at `firstPoint`.
-void Poser::Parts::evaluate(std::span<const float> floats, std::uint32_t firstPoint, bool isRigged) {
+/// All points of the set that begins at `firstPoint`. `positions`: where the cage is then.
+void Poser::Parts::evaluate(std::span<const float> floats, std::span<const vec3> positions, std::uint32_t firstPoint,
+                            bool isRigged) {
     const std::uint32_t upload = std::exchange(next, 1 - next);
     std::memcpy(uploads[upload].buffer.mapped, floats.data(), floats.size_bytes());
     push.firstPoint = firstPoint;
     push.isRigged = isRigged ? 1 : 0;
+    push.offsetUnit = offsetUnit(positions);
     device.submitAndWait([&](VkCommandBuffer commands) {
         bind(commands, cagePipeline, sets[upload]);
         relief::push(commands, cagePipeline, std::as_bytes(std::span(&push, 1)));
@@ -226,18 +252,22 @@ Poser::~Poser() = default;
 
 void Poser::pose(const Pose& now, const Pose* before) {
     Parts& parts = *parts_;
-    const double start = secondsNow();
+    const Rig* rig = parts.rig ? &*parts.rig : nullptr;
     const Pose* poses[] = {&now, before};
+    std::vector<vec3> positions[2];
     for (std::size_t i = 0; i < parts.setFirsts.size() && poses[i] != nullptr; ++i) {
         parts.checkPose(*poses[i]);
-        parts.evaluate(parts.uploadOf(*poses[i]), parts.setFirsts[i], parts.rig && poses[i]->positions.empty());
+        positions[i] = posedPositions(rig, *poses[i]);
     }
+    const double start = secondsNow();
+    for (std::size_t i = 0; i < parts.setFirsts.size() && poses[i] != nullptr; ++i)
+        parts.evaluate(parts.uploadOf(*poses[i]), positions[i], parts.setFirsts[i],
+                       rig != nullptr && poses[i]->positions.empty());
     parts.stats.milliseconds = 1e3 * (secondsNow() - start);
 
     std::vector<float> heightBounds = parts.model.faceHeightBounds;
     for (float& bound : heightBounds) bound *= parts.mostStretch;
-    std::vector<Bounds> boxes =
-        parts.supports.bounds(posedPositions(parts.rig ? &*parts.rig : nullptr, now), heightBounds);
+    std::vector<Bounds> boxes = parts.supports.bounds(positions[0], heightBounds);
     parts.bounds = {};
     for (const Bounds& box : boxes) {
         if (box.isEmpty()) continue;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "pose/stages.h"
@@ -38,6 +39,16 @@ struct Draft {
     std::vector<std::uint32_t> rows, points;
 };
 
+/// Brings the point with the largest weights to the front: rows lie near it, so that offsets from it are short.
+void bringHeaviestToFront(const Stencils& stencils, Draft& draft, std::vector<double>& weightOf) {
+    for (const std::uint32_t point : draft.points) weightOf[point] = 0;
+    for (const std::uint32_t row : draft.rows)
+        for (std::uint32_t k = stencils.offsets[row]; k < stencils.offsets[row + 1]; ++k)
+            weightOf[stencils.indices[k]] += std::abs(stencils.weight(row, k));
+    std::iter_swap(draft.points.begin(),
+                   std::ranges::max_element(draft.points, {}, [&](std::uint32_t p) { return weightOf[p]; }));
+}
+
 /// Splits rows in order into blocks. A row that would need more points than suits the block begins the next one.
 std::vector<Draft> drafts(const Stencils& stencils, std::uint32_t firstRow, std::uint32_t endRow) {
     constexpr std::uint32_t kUsualEntries = 24;
@@ -61,6 +72,8 @@ std::vector<Draft> drafts(const Stencils& stencils, std::uint32_t firstRow, std:
                 all.back().points.push_back(point);
             }
     }
+    std::vector<double> weightOf(latest.size());
+    for (Draft& draft : all) bringHeaviestToFront(stencils, draft, weightOf);
     return all;
 }
 
@@ -71,7 +84,7 @@ void addBlock(const Stencils& stencils, const Draft& draft, std::uint32_t entryC
     for (std::size_t i = 0; i < draft.points.size(); ++i) indexInBlock[draft.points[i]] = std::uint32_t(i);
     blocks.entries.insert(blocks.entries.end(), draft.points.begin(), draft.points.end());
     blocks.entries.resize(first + entryCount, draft.points.front());
-    blocks.weights.resize(blocks.entries.size() * kBlockRows, 0.0f);
+    blocks.weights.resize(blocks.entries.size() * kBlockRows, 0);
     for (std::size_t lane = 0; lane < kBlockRows; ++lane) {
         blocks.targets.push_back(lane < draft.rows.size() ? draft.rows[lane] : kNoPatch);
         if (lane >= draft.rows.size()) continue;

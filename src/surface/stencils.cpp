@@ -1,6 +1,7 @@
 // Stencils of refined and local points, cut down to the points that some patch uses.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "surface/rows.h"
 
@@ -85,9 +86,13 @@ std::vector<std::uint32_t> renumberRows(Surface& surface, const RowTable& rows,
 }
 
 void addRow(Stencils& stencils, std::span<const RowTable::Entry> row) {
+    double size = 0;
+    for (const RowTable::Entry& entry : row) size += std::abs(entry.weight);
+    const int scale = std::ilogb(std::max(size, 1.0)) + 1 - 31;
+    stencils.scales.push_back(std::int8_t(scale));
     for (const RowTable::Entry& entry : row) {
         stencils.indices.push_back(entry.index);
-        stencils.weights.push_back(float(entry.weight));
+        stencils.weights.push_back(std::int32_t(std::lround(std::ldexp(entry.weight, -scale))));
     }
     stencils.offsets.push_back(std::uint32_t(stencils.indices.size()));
 }
@@ -122,23 +127,23 @@ void fillTexPoints(Surface& surface, const FarTables& tables, const std::vector<
         surface.texPoints.emplace_back(points[used].value);
 }
 
-std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cagePositions) {
+std::vector<dvec3> refinePoints(const Surface& surface, std::span<const vec3> cagePositions) {
     if (cagePositions.size() != surface.controlPointCount)
         fail(Failure::input, "{} positions were given for a cage of {} points", cagePositions.size(),
              surface.controlPointCount);
     const Stencils& stencils = surface.stencils;
     RELIEF_CHECK(stencils.indices.size() == stencils.weights.size());
     RELIEF_CHECK((stencils.rowCount() == 0 || stencils.offsets.back() == stencils.indices.size()));
-    std::vector<vec3> points(cagePositions.begin(), cagePositions.end());
+    std::vector<dvec3> points(cagePositions.begin(), cagePositions.end());
     points.reserve(points.size() + stencils.rowCount());
     for (std::size_t row = 0; row < stencils.rowCount(); ++row) {
         // A row's weights sum to 1; taken as offsets from one of its points, their rounding scales with the row's
         // extent and not with its distance from the origin.
         const std::uint32_t first = stencils.offsets[row];
-        const dvec3 origin(points[stencils.indices[first]]);
+        const dvec3 origin = points[stencils.indices[first]];
         dvec3 offset(0);
         for (std::uint32_t k = first + 1; k < stencils.offsets[row + 1]; ++k)
-            offset += double(stencils.weights[k]) * (dvec3(points[stencils.indices[k]]) - origin);
+            offset += stencils.weight(row, k) * (points[stencils.indices[k]] - origin);
         points.emplace_back(origin + offset);
     }
     return points;

@@ -13,9 +13,9 @@ std::uint64_t bytesOf(const std::vector<T>& array) {
 
 std::uint64_t Surface::byteCount() const {
     return bytesOf(faces) + bytesOf(tree) + bytesOf(patches) + bytesOf(patchPoints) + bytesOf(stencils.offsets) +
-           bytesOf(stencils.indices) + bytesOf(stencils.weights) + bytesOf(capTables) + bytesOf(capWeights) +
-           bytesOf(texPoints) + bytesOf(texPatchPoints) + bytesOf(texCaps) + bytesOf(edges) + bytesOf(corners) +
-           bytesOf(incidences) + bytesOf(sectorFaces);
+           bytesOf(stencils.indices) + bytesOf(stencils.weights) + bytesOf(stencils.scales) + bytesOf(capTables) +
+           bytesOf(capWeights) + bytesOf(texPoints) + bytesOf(texPatchPoints) + bytesOf(texCaps) + bytesOf(edges) +
+           bytesOf(corners) + bytesOf(incidences) + bytesOf(sectorFaces);
 }
 
 dvec2 sidePoint(int sideCount, int side, double x) {

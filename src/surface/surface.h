@@ -1,6 +1,7 @@
 // OpenSubdiv's smooth limit surface as flat arrays, and a double-precision reference evaluator of it.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
 
@@ -43,14 +44,16 @@ struct CapTable {
 };
 
 /// A sparse matrix that makes refined points of control points:
-/// point[controlPointCount + row] = sum of weights[k] * point[indices[k]], k in [offsets[row], offsets[row+1]).
+/// point[controlPointCount + row] = sum of weight(row, k) * point[indices[k]], k in [offsets[row], offsets[row+1]).
 struct Stencils {
     std::vector<std::uint32_t> offsets; ///< rowCount + 1 entries
     std::vector<std::uint32_t> indices; ///< points of the cage; rows that are not shared may also name shared rows
-    std::vector<float> weights;
+    std::vector<std::int32_t> weights;  ///< finer than floats where weights are large
+    std::vector<std::int8_t> scales; ///< per row: weights are those numbers times 2^scale, and add up to less than 2^31
     std::uint32_t sharedRowCount = 0; ///< the first rows: partial sums that all rows around a vertex of many faces need
 
     [[nodiscard]] std::size_t rowCount() const { return offsets.empty() ? 0 : offsets.size() - 1; }
+    [[nodiscard]] double weight(std::size_t row, std::size_t k) const { return std::ldexp(weights[k], scales[row]); }
 };
 
 /// The limit surface as arrays that the device draws. Built once for a cage's topology, valid for every pose of it.
@@ -105,9 +108,8 @@ struct TreeLeaf {
 /// Lists the leaves below a tree entry (Face::root); a hole has none.
 std::vector<TreeLeaf> leavesOf(std::span<const std::uint32_t> tree, std::uint32_t root);
 
-/// Computes the points that Surface::patchPoints index: cage points, then every stencil row. Sums are computed in
-/// double precision and rounded once.
-std::vector<vec3> refinePoints(const Surface& surface, std::span<const vec3> cagePositions);
+/// Computes the points that Surface::patchPoints index, in double precision: cage points, then every stencil row.
+std::vector<dvec3> refinePoints(const Surface& surface, std::span<const vec3> cagePositions);
 
 /// Computes (u,v) of the point at x in [0,1] along a side of a face.
 dvec2 sidePoint(int sideCount, int side, double x);

@@ -42,7 +42,7 @@ double longestSide(std::span<const vec3> positions) {
     return bounds.longestSide();
 }
 
-double distance(const dvec3& a, const vec3& b) { return glm::length(a - dvec3(b)); }
+double distance(const dvec3& a, const dvec3& b) { return glm::length(a - b); }
 
 double degrees(const dvec3& a, const dvec3& b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)));
@@ -51,15 +51,16 @@ double degrees(const dvec3& a, const dvec3& b) {
 // --- stencils ------------------------------------------------------------------------------------------------------
 
 /// The rows as the device sums them, in double precision.
-std::vector<dvec3> blended(const StencilBlocks& blocks, std::span<const vec3> cage, std::size_t rowCount) {
-    std::vector<dvec3> rows(rowCount, dvec3(0));
+std::vector<dvec3> blended(const StencilBlocks& blocks, const Stencils& stencils, std::span<const vec3> cage) {
+    std::vector<dvec3> rows(stencils.rowCount(), dvec3(0));
     for (std::size_t block = 0; block < blocks.blockCount(); ++block)
         for (std::size_t lane = 0; lane < kBlockRows; ++lane) {
             const std::uint32_t row = blocks.targets[kBlockRows * block + lane];
             if (row == kNoPatch) continue;
-            for (std::size_t e = blocks.firsts[block]; e < blocks.firsts[block + 1]; ++e)
-                rows[row] +=
-                    double(blocks.weights[4 * (e / 4 * kBlockRows + lane) + e % 4]) * dvec3(cage[blocks.entries[e]]);
+            for (std::size_t e = blocks.firsts[block]; e < blocks.firsts[block + 1]; ++e) {
+                const std::int32_t weight = blocks.weights[4 * (e / 4 * kBlockRows + lane) + e % 4];
+                rows[row] += std::ldexp(weight, stencils.scales[row]) * dvec3(cage[blocks.entries[e]]);
+            }
         }
     return rows;
 }
@@ -68,12 +69,12 @@ TEST(StencilBlocks, holdEveryRowOnceWithItsWeights) {
     for (const NamedCage& named : allCages()) {
         const Surface surface = buildSurface(named.cage, {.isolation = 4});
         const StencilBlocks blocks = stencilBlocks(surface.stencils);
-        const std::vector<vec3> points = refinePoints(surface, named.cage.positions);
+        const std::vector<dvec3> points = refinePoints(surface, named.cage.positions);
         std::vector<int> seen(surface.stencils.rowCount());
         for (const std::uint32_t row : blocks.targets)
             if (row != kNoPatch) ++seen[row];
         EXPECT_TRUE(std::ranges::all_of(seen, [](int count) { return count == 1; })) << named.name;
-        const std::vector<dvec3> rows = blended(blocks, named.cage.positions, seen.size());
+        const std::vector<dvec3> rows = blended(blocks, surface.stencils, named.cage.positions);
         for (std::size_t row = 0; row < rows.size(); ++row)
             ASSERT_LT(distance(rows[row], points[surface.controlPointCount + row]), 2e-6)
                 << named.name << " row " << row;

@@ -124,7 +124,7 @@ TEST(RefinePoints, ACageShrunkToOnePointStaysThatPoint) {
         const Surface surface = buildSurface(family.cage, {family.scheme, 5});
         const vec3 position(1234.567F, -0.1F, 1e-3F);
         const std::vector<vec3> cage(surface.controlPointCount, position);
-        for (const vec3& p : refinePoints(surface, cage)) ASSERT_EQ(p, position);
+        for (const dvec3& p : refinePoints(surface, cage)) ASSERT_EQ(p, dvec3(position));
     }
 }
 

@@ -45,7 +45,7 @@ TEST(BuildSurface, TakesDegenerateFacesWithoutAWord) {
     const Surface surface = buildSurface(repeated, {Scheme::catmark, 3});
     EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-    for (const vec3& p : refinePoints(surface, repeated.positions)) EXPECT_TRUE(glm::all(glm::equal(p, p)));
+    for (const dvec3& p : refinePoints(surface, repeated.positions)) EXPECT_TRUE(glm::all(glm::equal(p, p)));
 }
 
 TEST(BuildSurface, ReportsItsSize) {

@@ -103,12 +103,11 @@ dvec3 FlatSurface::position(std::uint32_t face, const dvec2& uv) const {
     const Patch& patch = surface_.patches.at(leaf.patch);
     if (isExactCap(patch.type))
         return capValue<dvec3>(surface_, patch.cap, leaf.uv, [&](std::uint32_t i) {
-            return dvec3(points_.at(surface_.patchPoints.at(patch.firstPoint + i)));
+            return points_.at(surface_.patchPoints.at(patch.firstPoint + i));
         });
     const auto w = weights(leaf.patch, leaf, uv);
     dvec3 p(0);
-    for (std::size_t i = 0; i < w.size(); ++i)
-        p += w[i] * dvec3(points_.at(surface_.patchPoints.at(patch.firstPoint + i)));
+    for (std::size_t i = 0; i < w.size(); ++i) p += w[i] * points_.at(surface_.patchPoints.at(patch.firstPoint + i));
     return p;
 }
 

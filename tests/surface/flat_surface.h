@@ -30,7 +30,7 @@ private:
     [[nodiscard]] std::vector<double> texWeights(std::uint32_t patch, const Leaf& leaf, const dvec2& uv) const;
 
     Surface surface_;
-    std::vector<vec3> points_;
+    std::vector<dvec3> points_;
     FarTables tables_;                                  ///< for the bases that are not written out here
     std::vector<Far::PatchTable::PatchHandle> handles_; ///< one per patch
 };
