@@ -92,8 +92,8 @@ RELIEF_CONSTANT uint kVectorNone = 0u;
 RELIEF_CONSTANT uint kVectorTangent = 1u;
 RELIEF_CONSTANT uint kVectorObject = 2u;
 
-// raster_*.comp: the lists of triangles for raster_large.comp and raster_thin.comp, in one buffer: one from the front, the other
-// from the back. Each begins with the three words of its dispatch, its workgroups.
+// raster_*.comp: the lists of triangles for raster_large.comp and raster_thin.comp, in one buffer: one from the front,
+// the other from the back. Each begins with the three words of its dispatch, its workgroups.
 RELIEF_CONSTANT uint kLargeList = 0u;          // word: where what is known of a list begins
 RELIEF_CONSTANT uint kThinList = 5u;           // word
 RELIEF_CONSTANT uint kListCount = 3u;          // word from there: triangles in the list
@@ -101,7 +101,7 @@ RELIEF_CONSTANT uint kListSeen = 4u;           // word from there: 1 where a pas
 RELIEF_CONSTANT uint kListFirst = 10u;         // word: the first triangle
 RELIEF_CONSTANT uint kMostListGroups = 65535u; // that a dispatch may have on every device
 RELIEF_CONSTANT uint kThinGroup = 64u;         // invocations of raster_thin.comp, one per triangle
-RELIEF_CONSTANT int kLargeTile = 256;           // pixels each way that one of its workgroups fills
+RELIEF_CONSTANT int kLargeTile = 256;          // pixels each way that one of its workgroups fills
 
 // How much nearer lines of triangles are drawn than they lie (--show wireframe): this many units of the last
 // place of depths, and this many times the change of depth per pixel.
