@@ -159,18 +159,17 @@ std::string makeSeamText(const SeamReport& seams, double displacementBound) {
 
 } // namespace
 
-/// Rounding of a leaf patch's points grows with its magnification, which doubles with each level of isolation beyond
-/// the default.
-Promises promisesAt(int isolation) {
-    Promises promises;
-    promises.tangent = std::ldexp(promises.tangent, std::max(isolation - SurfaceOptions().isolation, 0));
-    return promises;
+double errorHeat(const SampleError& error, const Promises& promises) {
+    constexpr double kDecades = 1;
+    const double share = std::max(error.point / promises.point, error.tangent / promises.tangent);
+    if (!std::isfinite(error.point + error.tangent)) return 1;
+    return std::clamp(1 + std::log10(share) / kDecades, 0.0, 1.0);
 }
 
 std::vector<std::string> Certificate::brokenPromises() const {
     std::vector<std::string> broken;
     for (const PathReport& report : paths) addBroken(broken, report);
-    const Promises promises = promisesAt(isolation);
+    const Promises promises;
     const auto check = [&](const ErrorSummary& error, double most, const char* what) {
         if (error.max > most)
             broken.push_back(fmt::format("{} are off by {:.2e} of the diagonal at {}, more than {:.0e}", what,

@@ -24,7 +24,10 @@ struct Promises {
     double wrongShare = 0.01;  ///< of points that are displaced wrongly (SampleError::isMisplaced and isMisturned)
     double cornerDegrees = 15; ///< see CornerReport; in corners the surface itself turns by a few degrees
 };
-Promises promisesAt(int isolation);
+
+/// Maps an error to 0 at a tenth of what is promised, and up to 1 at the promise, on a logarithmic scale: rounding
+/// alone stays 0. Values that are not finite are as wrong as can be.
+double errorHeat(const SampleError& error, const Promises& promises);
 
 struct Certificate {
     std::string cage, height, device; ///< height: path of the map, or empty

@@ -10,15 +10,6 @@ namespace relief::app {
 namespace {
 
 constexpr int kHeatmapSide = 1024;
-constexpr double kDecades = 1; // of errors, from white to what is promised, so that rounding alone stays white
-
-/// Maps an error to 0 at a tenth of what is promised up to 1 at the promise. Values that are not finite are as wrong as
-/// can be.
-double errorHeat(const SampleError& error, const Promises& promises) {
-    const double share = std::max(error.point / promises.point, error.tangent / promises.tangent);
-    if (!std::isfinite(error.point + error.tangent)) return 1;
-    return std::clamp(1 + std::log10(share) / kDecades, 0.0, 1.0);
-}
 
 double foldHeat(double factor) { return std::isfinite(factor) ? std::clamp(1 - 2 * factor, 0.0, 1.0) : 0; }
 

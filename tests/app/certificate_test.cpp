@@ -9,6 +9,8 @@ namespace relief::test {
 namespace {
 
 using app::Certificate;
+using app::errorHeat;
+using app::Promises;
 
 /// One path of an open cage, with everything as promised.
 Certificate soundCertificate() {
@@ -97,12 +99,14 @@ TEST(Certificate, isBrokenByPointsThatAreDisplacedWrongly) {
     expectBroken(c, {"2 of 100", "normals"});
 }
 
-TEST(Certificate, promisesTangentsLessWherePatchesAreMagnifiedMore) {
-    Certificate c = soundCertificate();
-    c.frames.regular.tangent.max = 3e-5;
-    expectBroken(c, {"tangents"});
-    c.isolation = 8;
-    EXPECT_TRUE(c.brokenPromises().empty());
+// What a heat map shows in orange: nothing of what rounding does, most at the promise itself.
+TEST(Certificate, showsErrorsThatComeNearAPromise) {
+    const Promises promises;
+    EXPECT_EQ(errorHeat({.point = promises.point / 20, .tangent = promises.tangent / 20}, promises), 0);
+    EXPECT_NEAR(errorHeat({.point = promises.point / 2}, promises), 0.7, 0.01);
+    EXPECT_NEAR(errorHeat({.point = promises.point / 20, .tangent = promises.tangent / 2}, promises), 0.7, 0.01);
+    EXPECT_EQ(errorHeat({.tangent = 3 * promises.tangent}, promises), 1);
+    EXPECT_EQ(errorHeat({.point = std::numeric_limits<double>::quiet_NaN()}, promises), 1);
 }
 
 TEST(Certificate, isNotBrokenByWhatIsNoPromise) {
