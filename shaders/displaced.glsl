@@ -169,9 +169,8 @@ DisplacedSample displacedInPose(uint face, vec2 faceUV, SampleLocation location,
     precise vec3 direction = vec3(0);
     vec3 ownersNormal = vec3(0), c = vec3(0);
     SurfacePoint owners; // of vector maps
-    uint count = max(location.incidenceCount, 1u);
     uint own = kHasHeight ? 0u : ownIncidence(face, location);
-    if (!kHasHeight) count = own > 0u ? 2u : 1u;
+    uint count = kHasHeight ? max(location.incidenceCount, 1u) : own > 0u ? 2u : 1u;
     bool isOwn = false;
     // One turn more for texture coordinates and their gradients where none of the incidences was of the drawn face: they may
     // differ from the owner's. A second call beside the loop would be compiled a second time.

@@ -4,6 +4,7 @@
 
 #include "shared/points.h"
 
+// One step of a remainder, by the exponent of the largest coordinate.
 float remainderStep(vec3 p) {
     uint exponent = floatBitsToUint(max(abs(p.x), max(abs(p.y), abs(p.z)))) & 0x7f800000u;
     return kRemainderStep * uintBitsToFloat(max(exponent, 64u << 23));
@@ -25,7 +26,7 @@ vec4 finePoint(vec3 origin, vec3 coarse, vec3 fine) {
     return vec4(p, uintBitsToFloat(steps.x | steps.y << 10 | steps.z << 20));
 }
 
-// a - b
+// Returns a - b, with what their floats leave.
 vec3 pointDifference(vec4 a, vec4 b) {
     precise vec3 d = (a.xyz - b.xyz) + (remainderOf(a) - remainderOf(b));
     return d;

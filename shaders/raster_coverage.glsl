@@ -20,7 +20,7 @@ struct ShortTriangle {
     Attributes all;
 };
 
-// Of three vertices on the screen: x, y, depth and normal.
+// Makes one of three vertices on the screen, which are x, y, depth and normal.
 ShortTriangle shortTriangle(uvec4 va, uvec4 vb, uvec4 vc) {
     ShortTriangle t;
     ivec2 a = ivec2(va.xy), b = ivec2(vb.xy), c = ivec2(vc.xy);

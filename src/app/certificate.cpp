@@ -159,7 +159,8 @@ std::string makeSeamText(const SeamReport& seams, double displacementBound) {
 
 } // namespace
 
-double errorHeat(const SampleError& error, const Promises& promises) {
+double errorHeat(const SampleError& error) {
+    const Promises promises;
     constexpr double kDecades = 1;
     const double share = std::max(error.point / promises.point, error.tangent / promises.tangent);
     if (!std::isfinite(error.point + error.tangent)) return 1;

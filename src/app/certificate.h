@@ -27,7 +27,7 @@ struct Promises {
 
 /// Maps an error to 0 at a tenth of what is promised, and up to 1 at the promise, on a logarithmic scale: rounding
 /// alone stays 0. Values that are not finite are as wrong as can be.
-double errorHeat(const SampleError& error, const Promises& promises);
+double errorHeat(const SampleError& error);
 
 struct Certificate {
     std::string cage, height, device; ///< height: path of the map, or empty
@@ -50,8 +50,8 @@ struct Certificate {
 
 inline constexpr std::uint64_t kMostCheckedTriangles = 2'000'000; ///< most cages have half as many
 
-/// The length of segments, in pixels, with which at most kMostCheckedTriangles are made: `pixels`, doubled as often as
-/// that needs, until it is `most` or more. `planned`: the triangles that a length makes.
+/// Returns the length of segments, in pixels, with which at most kMostCheckedTriangles are made: `pixels`, doubled as
+/// often as that needs, until it is `most` or more. `planned`: the triangles that a length makes.
 double limitEdgePixels(double pixels, double most, const std::function<std::uint64_t(double)>& planned);
 
 nlohmann::json toJson(const Certificate& certificate);

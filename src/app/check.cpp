@@ -151,7 +151,7 @@ std::optional<Picture> checkPoints(Device& device, const SurfaceModel& model, co
     if (object.height) certificate.seams = reportSeams(object.surface, reference, *object.height);
 
     if (args.heatmap.empty()) return {};
-    const Heat heat{samples, results, errors, Promises{}};
+    const Heat heat{samples, results, errors};
     return drawHeatmap(device, heatMesh(heat, object.surface.sideCount));
 }
 

@@ -43,7 +43,7 @@ void checkHeatmapPath(const std::string& path) {
 std::vector<float> heatValues(const Heat& heat) {
     std::vector<float> values;
     for (std::size_t i = 0; i < heat.results.size(); ++i) {
-        const double error = errorHeat(heat.errors[i], heat.promises);
+        const double error = errorHeat(heat.errors[i]);
         const double fold = heat.samples.hasCurvature[i]
                                 ? foldHeat(heat.errors[i].foldFactor.value_or(foldFactor(heat.results[i])))
                                 : 0;

@@ -14,7 +14,6 @@ struct Heat {
     const SurfaceSamples& samples;
     std::span<const SampleResult> results;
     std::span<const SampleError> errors;
-    Promises promises;
 };
 
 /// One value per sample. Errors are positive, on a logarithmic scale from 0 at a tenth of what is promised to 1 at the

@@ -123,7 +123,8 @@ struct FrameStats {
     std::uint64_t vertexCount = 0;                  ///< distinct samples of the surface: what a dense mesh would store
     std::uint32_t drawCount = 0, maxRate = 0;
     Raster raster = Raster::hardware; ///< that made the samples
-    /// Times of the passes on the device, milliseconds; 0 where it cannot time. Of pieces the sums.
+    /// Times of the passes on the device, milliseconds; 0 where it cannot time. For a surface in pieces
+    /// they are sums over its pieces.
     double rateMs = 0, diceMs = 0, shadowMs = 0, colorMs = 0, lightMs = 0;
     double occlusionMs = 0, otherLightsMs = 0; ///< shadows and light of Lighting::others
     double wallMs = 0;                         ///< rates to pixels on the host

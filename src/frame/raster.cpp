@@ -22,7 +22,8 @@ constexpr const char* kLineShader = "raster_lines.comp";
 
 /// Triangles per piece of a diced surface: vertices, their places on the screen and indices take some 40 MB per piece.
 constexpr std::uint64_t kPieceTriangles = std::uint64_t(1) << 20;
-/// Triangles per piece where samples name triangles: resolveMesh() passes over all samples once per piece.
+/// The same number where samples name triangles. It is larger, because resolveMesh() passes over all samples once per
+/// piece.
 constexpr std::uint64_t kResolvedPieceTriangles = 4 * kPieceTriangles;
 
 using MeshSize = Dicer::PieceSize;
@@ -286,7 +287,7 @@ void Renderer::Parts::rasterize(VkCommandBuffer commands, const Frame& frame, st
     }
 }
 
-/// With room for all stamps of rasterize().
+/// Makes a timer that has room for all stamps of rasterize().
 void Renderer::Parts::makePieceTimer(VkCommandBuffer commands, const Frame& frame, std::size_t targetCount) {
     std::size_t meshes = 0;
     for (const Drawn& drawn : frame.drawn) meshes += drawn.diced.pieces ? Dicer::piecesOf(drawn.diced).size() : 1;
@@ -294,7 +295,7 @@ void Renderer::Parts::makePieceTimer(VkCommandBuffer commands, const Frame& fram
     pieceTimer->reset(commands);
 }
 
-/// Dicing and shadows are among what was timed as color: surfacePass().
+/// Adds up the times of all pieces. surfacePass() has timed dicing and shadows as color.
 void Renderer::Parts::readPieceTimes(Frame& frame) const {
     const std::size_t perMesh = frame.castsShadows() ? 3 : 2;
     const std::vector<double> times = pieceTimer->intervals();

@@ -20,7 +20,7 @@ struct BallStudio {
     Image draw(const Material& material, Lighting lighting, const dvec3& back);
 };
 
-/// Triangles that the compute rasterizer has shaders of their own for: raster_thin.comp, raster_large.comp.
+/// Which kinds of triangles a picture has that the compute rasterizer draws by raster_thin.comp and raster_large.comp.
 struct ListedTriangles {
     bool thin = false, large = false;
 };

@@ -29,7 +29,7 @@ struct SurfaceRecords {
 };
 SurfaceRecords recordsOf(const Surface& surface);
 
-/// A point as shared/points.h says.
+/// Packs a point as shared/points.h says.
 vec4 packPoint(const dvec3& point);
 
 } // namespace relief

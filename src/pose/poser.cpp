@@ -31,11 +31,10 @@ bool needsFineSums(const Surface& surface) {
     return isDeep;
 }
 
-/// PosePush::offsetUnit of a pose.
+/// Returns PosePush::offsetUnit for a pose.
 float offsetUnit(std::span<const vec3> positions) {
-    Bounds box;
-    for (const vec3& p : positions) box.add(dvec3(p));
-    return box.longestSide() > 0 ? std::ldexp(1.0F, std::ilogb(box.longestSide()) + 1 - kOffsetBits) : 1;
+    const double side = computeBounds(positions).longestSide();
+    return side > 0 ? std::ldexp(1.0F, std::ilogb(side) + 1 - kOffsetBits) : 1;
 }
 
 } // namespace
@@ -209,14 +208,15 @@ std::vector<float> Poser::Parts::uploadOf(const Pose& pose) const {
     return floats;
 }
 
-/// All points of the set that begins at `firstPoint`. `positions`: where the cage is then.
+/// Makes all points of the set that begins at `firstPoint`. `positions`: where the cage is then, read where sums are
+/// fine.
 void Poser::Parts::evaluate(std::span<const float> floats, std::span<const vec3> positions, std::uint32_t firstPoint,
                             bool isRigged) {
     const std::uint32_t upload = std::exchange(next, 1 - next);
     std::memcpy(uploads[upload].buffer.mapped, floats.data(), floats.size_bytes());
     push.firstPoint = firstPoint;
     push.isRigged = isRigged ? 1 : 0;
-    push.offsetUnit = offsetUnit(positions);
+    if (isFine) push.offsetUnit = offsetUnit(positions);
     device.submitAndWait([&](VkCommandBuffer commands) {
         bind(commands, cagePipeline, sets[upload]);
         relief::push(commands, cagePipeline, std::as_bytes(std::span(&push, 1)));
@@ -254,13 +254,14 @@ void Poser::pose(const Pose& now, const Pose* before) {
     Parts& parts = *parts_;
     const Rig* rig = parts.rig ? &*parts.rig : nullptr;
     const Pose* poses[] = {&now, before};
+    const std::size_t poseCount = before != nullptr ? parts.setFirsts.size() : 1;
     std::vector<vec3> positions[2];
-    for (std::size_t i = 0; i < parts.setFirsts.size() && poses[i] != nullptr; ++i) {
+    for (std::size_t i = 0; i < poseCount; ++i) {
         parts.checkPose(*poses[i]);
-        positions[i] = posedPositions(rig, *poses[i]);
+        if (i == 0 || parts.isFine) positions[i] = posedPositions(rig, *poses[i]);
     }
     const double start = secondsNow();
-    for (std::size_t i = 0; i < parts.setFirsts.size() && poses[i] != nullptr; ++i)
+    for (std::size_t i = 0; i < poseCount; ++i)
         parts.evaluate(parts.uploadOf(*poses[i]), positions[i], parts.setFirsts[i],
                        rig != nullptr && poses[i]->positions.empty());
     parts.stats.milliseconds = 1e3 * (secondsNow() - start);

@@ -19,14 +19,6 @@ int ringCount(const CapPattern& pattern) {
     return 1 + pattern.spokeCount() + (pattern.sideCount == 4 ? pattern.faceCount : 0);
 }
 
-/// The eigenvalue of waves around the vertex that turn by `angle` from one edge to the next. Of quads the closed form
-/// of Catmull and Clark's: (5 + cos a + cos(a/2) sqrt(18 + 2 cos a)) / 16.
-double waveEigenvalue(int sideCount, double angle) {
-    const double c = std::cos(angle);
-    if (sideCount == 3) return 0.375 + 0.25 * c;
-    return (5 + c + std::cos(angle / 2) * std::sqrt(18 + 2 * c)) / 16;
-}
-
 /// The left eigenvector of a wave, which weighs the ends of the edges by wave(j): far corners have
 /// (wave(j) + wave(j + 1)) / (16 L - 4), L the eigenvalue. The vertex and sharp edges are the caller's.
 template <typename Wave>
@@ -126,6 +118,12 @@ MatrixXd dartMeans(const CapPattern& pattern, const RowVectorXd& limit) {
 }
 
 } // namespace
+
+double waveEigenvalue(int sideCount, double angle) {
+    const double c = std::cos(angle);
+    if (sideCount == 3) return 0.375 + 0.25 * c;
+    return (5 + c + std::cos(angle / 2) * std::sqrt(18 + 2 * c)) / 16;
+}
 
 int CapPattern::meanCount() const {
     if (window == 0 || rule == VertexRule::corner) return 0;

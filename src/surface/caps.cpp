@@ -225,9 +225,6 @@ private:
     int count_;
 };
 
-/// The eigenvalues of the slowest waves around many faces, of quads and of triangles: cap_rings.cpp has their formulas.
-constexpr double kSlowest[] = {(6 + 4.47213595499958) / 16, 0.625};
-
 constexpr int kSquarings = 24; ///< 2^24 refinements: what shrinks faster is gone, however many faces there are
 
 /// The projection to the eigenvectors of a matrix's largest eigenvalue, which must be real, and other ones smaller.
@@ -282,7 +279,7 @@ MatrixXd needleTangents(const CapPattern& pattern, const MatrixXd& deflated, con
     return rows;
 }
 
-/// Those of the ring: the other points around the cap do not count.
+/// Returns the tangents of the ring: the other points around the cap do not count.
 MatrixXd tangentsOfRing(const CapPattern& pattern, Eigen::Index count) {
     const MatrixXd ring = ringTangents(pattern);
     MatrixXd rows = MatrixXd::Zero(2, count);
@@ -362,7 +359,7 @@ CapMatrices::CapMatrices(const CapPattern& pattern, int levelCount) : pattern_(p
     const auto tangentsOf = [&](int level) { return diagonalTangents(pattern.sideCount, levels_[level - 1][1]); };
     const bool isLarge = pattern.window > 0 || pattern.faceCount > kMostCapFaces;
     MatrixXd deepest = tangentsOf(int(kCapLevels));
-    if (isLarge && pattern.isDart()) deepest *= std::pow(2 * kSlowest[pattern.sideCount == 3], 1 - int(kCapLevels));
+    if (isLarge && pattern.isDart()) deepest *= std::pow(2 * waveEigenvalue(pattern.sideCount, 0), 1 - int(kCapLevels));
     const bool isNeedle = pattern.isClosed && !pattern.hasDart;
     if (pattern.tangentCount() > 0)
         tangents_ = MatrixXd::Identity(a.rows(), a.rows()).bottomRows(2);

@@ -99,6 +99,10 @@ Eigen::RowVectorXd ringLimit(const CapPattern& pattern);
 /// refinements. `limit`: ringLimit(), which takes long at darts.
 Eigen::MatrixXd ringMeans(const CapPattern& pattern, const Eigen::RowVectorXd& limit);
 
+/// Returns the eigenvalue of waves around a vertex that turn by `angle` radians from one edge to the next. Of quads it
+/// is the closed form of Catmull and Clark's: (5 + cos a + cos(a/2) sqrt(18 + 2 cos a)) / 16.
+double waveEigenvalue(int sideCount, double angle);
+
 /// The weights of the ring's points for p_u and p_v at the vertex, to either side of the cap's middle: of smooth
 /// vertices without a dart the eigenvectors of the two largest eigenvalues below 1, of creases those along and across,
 /// of sharp vertices without sharp edges those along the needle and around.

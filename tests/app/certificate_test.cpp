@@ -102,11 +102,11 @@ TEST(Certificate, isBrokenByPointsThatAreDisplacedWrongly) {
 // What a heat map shows in orange: nothing of what rounding does, most at the promise itself.
 TEST(Certificate, showsErrorsThatComeNearAPromise) {
     const Promises promises;
-    EXPECT_EQ(errorHeat({.point = promises.point / 20, .tangent = promises.tangent / 20}, promises), 0);
-    EXPECT_NEAR(errorHeat({.point = promises.point / 2}, promises), 0.7, 0.01);
-    EXPECT_NEAR(errorHeat({.point = promises.point / 20, .tangent = promises.tangent / 2}, promises), 0.7, 0.01);
-    EXPECT_EQ(errorHeat({.tangent = 3 * promises.tangent}, promises), 1);
-    EXPECT_EQ(errorHeat({.point = std::numeric_limits<double>::quiet_NaN()}, promises), 1);
+    EXPECT_EQ(errorHeat({.point = promises.point / 20, .tangent = promises.tangent / 20}), 0);
+    EXPECT_NEAR(errorHeat({.point = promises.point / 2}), 0.7, 0.01);
+    EXPECT_NEAR(errorHeat({.point = promises.point / 20, .tangent = promises.tangent / 2}), 0.7, 0.01);
+    EXPECT_EQ(errorHeat({.tangent = 3 * promises.tangent}), 1);
+    EXPECT_EQ(errorHeat({.point = std::numeric_limits<double>::quiet_NaN()}), 1);
 }
 
 TEST(Certificate, isNotBrokenByWhatIsNoPromise) {
